@@ -19,8 +19,8 @@ add_custom_command(OUTPUT ${embedded_page}
           -DOUTPUT=${embedded_page} -P ${PROJECT_SOURCE_DIR}/engine/record/embed_page.cmake
   DEPENDS ${page_parts} VERBATIM)
 
-# what computes for long lies in core, elastic, footprint, geometry and solve; the rest asks it, but
-# for what every frame has
+# code that computes for long is in core, elastic, footprint, geometry and solve, but for what computes
+# every frame; the other folders call it
 file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
 set(light_sources ${engine_sources})
 list(FILTER light_sources INCLUDE REGEX "/(design|formats|preset|record|scene|simulate|study)/")

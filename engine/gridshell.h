@@ -12,6 +12,7 @@
 #include "engine/formats/point_file.h"         // IWYU pragma: export
 #include "engine/preset/consistency.h"         // IWYU pragma: export
 #include "engine/preset/field_table.h"         // IWYU pragma: export
+#include "engine/preset/materials.h"           // IWYU pragma: export
 #include "engine/preset/preset.h"              // IWYU pragma: export
 #include "engine/preset/preset_file.h"         // IWYU pragma: export
 #include "engine/preset/sweep_grid.h"          // IWYU pragma: export

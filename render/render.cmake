@@ -1,5 +1,5 @@
-# The renderer: OpenGL is found at run time, so only headers are needed here. Sees record/ alone of
-# the engine.
+# The renderer. OpenGL is loaded at run time, so only its headers are needed to build. Of the engine
+# the renderer includes only core/, preset/ and record/.
 find_package(PNG REQUIRED)
 pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo)
@@ -18,7 +18,7 @@ add_custom_command(
   DEPENDS ${SHADER_FILES} render/gl/embed_shaders.cmake
   COMMENT "Embedding the shaders" VERBATIM)
 
-# of all that draws, gl goes through pixels itself
+# only render/gl, which processes pixels, is compiled at the full optimisation level
 file(GLOB_RECURSE render_sources CONFIGURE_DEPENDS render/gl/*.cpp render/*.h)
 file(GLOB_RECURSE light_sources CONFIGURE_DEPENDS render/canvas/*.cpp render/movie/*.cpp)
 add_library(gridshell_render_light OBJECT ${light_sources})

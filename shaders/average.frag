@@ -1,7 +1,7 @@
-// The mean of a pixel's samples, in linear light.
+// The mean of a pixel's PER_SIDE x PER_SIDE samples, in linear light.
 uniform sampler2D samples;
-uniform vec2 texel_of_samples;
-uniform vec2 corner;  // of the samples, in the target
+uniform vec2 texel_of_samples;  // size of a texel in texture coordinates
+uniform vec2 corner;            // pixel of the target that the first samples belong to
 out vec4 fragment;
 
 void main() {

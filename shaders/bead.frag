@@ -1,3 +1,4 @@
+// Joints and marks; the inputs are described in bead.vert.
 in vec3 surface;
 in vec4 shade, half_way;
 in vec3 right, up, axis;
@@ -13,7 +14,7 @@ void main() {
     vec2 p = place / max(radius, length(place));
     n = p.x * right + p.y * up + sqrt(max(0.0, 1.0 - dot(p, p))) * sight;
   } else {
-    // a box between two ellipses, of which the one before is seen whole
+    // a cylinder is seen as a box between two ellipses, of which the nearer one is all visible
     float x = clamp(place.x, -radius, radius);
     float ellipse = abs(shape.z) * sqrt(radius * radius - x * x);
     cover = clamp(0.5 + radius - abs(place.x), 0.0, 1.0) *

@@ -1,15 +1,17 @@
-// Joints and marks: cylinders about their axis and balls, on cards that face the eye.
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec4 direction;  // axis, and radius with the sign of the card's side
-layout(location = 2) in vec4 colour;     // alpha in thirds: bit 0 the other side, bit 1 a ball
+// Joints and marks: cylinders and balls, drawn on rectangles (cards) that face the eye.
+layout(location = 0) in vec3 position;   // of the card's middle
+layout(location = 1) in vec4 direction;  // axis; radius, its sign: left or right
+layout(location = 2) in vec4 colour;     // 3 alpha: bit 0 an upper corner, bit 1 a ball
 uniform mat4 view_projection;
-const float height = 5.0 / 3.0;  // of half a joint's cylinder over its radius [Baek 2018]
-out vec3 surface;
-out vec4 shade;     // place on the shadow map, and the shine's hue
-out vec4 half_way;  // to the light, and the haze
-out vec3 right, up, axis;
-out vec2 place;  // on the card, in samples
-out vec3 shape;  // radius; of a cylinder how far its ends' middles lie off, else below 0; axis and sight
+const float height = 5.0 / 3.0;  // half a cylinder's height over its radius [Baek 2018]
+out vec3 surface;                // colour
+out vec4 shade;                  // position on the shadow map; shine_hue()
+out vec4 half_way;               // unit vector half way between eye and light; haze_at()
+out vec3 right, up, axis;        // of the card; of the cylinder
+out vec2 place;                  // position on the card, in samples
+// radius in samples; distance of a cylinder's ends from its middle as seen, in samples, or -1 of a
+// ball; cosine between axis and line of sight
+out vec3 shape;
 
 void main() {
   int code = int(3.0 * colour.a + 0.5);

@@ -1,7 +1,8 @@
-// What the light meets first: how much of it is blocked, and that times the height above ground.
+// The shell as the light sees it: the fraction of light that is blocked, and this times the height
+// above the ground.
 in float height;
 in float cover;
-uniform float density;
+uniform float density;  // fraction of the light that an opaque colour blocks
 out vec4 fragment;
 
 void main() {

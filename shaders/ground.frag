@@ -1,7 +1,7 @@
-// The ground in the open, or what lies behind it.
+// The ground and, above its horizon, the background.
 in vec3 ground_point;
 #ifdef GATHERED
-uniform sampler2D gathered;  // light of many passes, pixel by pixel
+uniform sampler2D gathered;  // mean light of many passes at every pixel
 
 float light_there() { return texelFetch(gathered, ivec2(gl_FragCoord.xy), 0).r; }
 #else

@@ -1,5 +1,5 @@
-// One triangle over the target, with the point of the ground behind each pixel.
-uniform mat4 to_ground;  // its first three rows and columns: (x, y, 1) of clip to (X, Y, 1) / depth
+// One triangle over the target, with the point of the ground that each pixel shows.
+uniform mat4 to_ground;  // upper left 3 x 3: maps clip coordinates (x, y, 1) to (X, Y, 1) / depth
 out vec3 ground_point;
 
 void main() {

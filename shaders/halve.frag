@@ -1,6 +1,7 @@
-// Half the size by the binomial weights 1 3 3 1 along both axes: four taps, each between texels.
+// A texture at half the size by the binomial filter 1 3 3 1 along both axes: four taps, each
+// between texels.
 uniform sampler2D finer;
-uniform float finer_texel;  // 1 / texels along its side
+uniform float finer_texel;  // 1 / number of texels along its side
 out vec4 fragment;
 
 void main() {

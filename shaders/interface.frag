@@ -1,4 +1,4 @@
-// letters, areas and the view of the shell, in the colours of the screen
+// Letters, areas and the view of the shell, in the colours of the screen.
 uniform sampler2D picture;
 in vec2 at;
 in vec4 ink;

@@ -1,4 +1,4 @@
-// a triangle of the interface: pixels from the top left
+// A triangle of the interface; positions are pixels from the top left.
 uniform vec2 size;       // of the window, pixels
 uniform float upwards;   // 1: the target's first row is the lowest; -1: the highest
 layout(location = 0) in vec2 place;

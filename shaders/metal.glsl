@@ -1,22 +1,22 @@
-// Rods, rings and joints: a matt base with the sheen of drawn metal. Premultiplied.
+// Rods, rings and joints: a matt base with the sheen of drawn metal. Colours are premultiplied.
 uniform float sheen;  // 0: flat ink
-uniform float unlit;  // 1: in its own colour, which a bar explains; 0: lit
+uniform float unlit;  // 1: in its own colour, as a colour bar has it; 0: lit
 
-// What a point's neighbours share, and so is found once a vertex.
+// Quantities of a surface that are computed per vertex.
 struct Metal {
-  vec4 surface;
-  float hue;   // of the shine's own colour
-  float pale;  // by haze
-  vec3 place;  // on the shadow map
+  vec4 surface;  // colour
+  float hue;     // shine_hue()
+  float pale;    // haze_at()
+  vec3 place;    // position on the shadow map
 };
 
-// The cosines are those of the normal with the light, with what is half way to the eye, and with
-// the eye; `up` is how much it rises.
+// The colour of a point. Cosines of its normal with the directions to the light, half way between
+// light and eye, and to the eye; `up` is the normal's vertical component.
 vec4 metal(Metal metal, float to_light, float half_way, float to_eye, float up) {
   float facing_light = max(to_light, 0.0);
   float key_light = facing_light > 0.0 ? key * lit(metal.place) : 0.0;
   float gloss = max(half_way, 0.0);
-  gloss *= gloss;  // to the power of 32 in all
+  gloss *= gloss;  // five squares: the power of 32
   gloss *= gloss;
   gloss *= gloss;
   gloss *= gloss;

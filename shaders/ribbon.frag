@@ -1,14 +1,15 @@
+// Rods; the inputs are described in ribbon.vert.
 in vec4 surface;
 in vec4 shade, light_and_up, gloss_and_eye;
 in vec2 place;
 out vec4 fragment;
 
 void main() {
-  // how much of a sample the rod covers, as a box one sample wide sees it
+  // the fraction of a sample, a box of width 1, that the rod covers
   float off = abs(place.x), radius = place.y;
   float cover = clamp(radius - off + 0.5, 0.0, 1.0) - clamp(-radius - off + 0.5, 0.0, 1.0);
   float t = clamp(place.x / radius, -1.0, 1.0);
-  vec2 normal = vec2(t, sqrt(1.0 - t * t));  // across, and towards the eye
+  vec2 normal = vec2(t, sqrt(1.0 - t * t));  // its components across and towards the eye
   fragment = metal(Metal(surface, shade.w, gloss_and_eye.w, shade.xyz),
                    dot(normal, light_and_up.xy), dot(normal, gloss_and_eye.xy),
                    normal.y * gloss_and_eye.z, dot(normal, light_and_up.zw)) *

@@ -1,18 +1,22 @@
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec4 direction;  // tangent, and radius with the side's sign
+// Rods as strips. A normal of the round rod is a combination of two unit vectors at right angles to
+// its axis: `across` the strip and `facing` the eye.
+layout(location = 0) in vec3 position;   // on the axis
+layout(location = 1) in vec4 direction;  // tangent; radius, with the side's sign
 layout(location = 2) in vec4 colour;
 uniform mat4 view_projection;
-out vec4 surface;
-out vec4 shade;  // place on the shadow map, and the shine's hue
-// cosines of what is at right angles to the axis, across the ribbon and towards the eye
-out vec4 light_and_up;  // with the light, and with what is up
-out vec4 gloss_and_eye;  // with what is half way to the light; facing's with the eye; the haze
-out vec2 place;  // across the ribbon, and its radius, in samples
+out vec4 surface;  // colour
+out vec4 shade;    // position on the shadow map; shine_hue()
+// cosines of across and facing with the direction to the light; their vertical components
+out vec4 light_and_up;
+// cosines of across and facing with the direction half way between eye and light; cosine of facing
+// with the direction to the eye; haze_at()
+out vec4 gloss_and_eye;
+out vec2 place;  // position across the strip; radius of the rod; in samples
 
 void main() {
   float unit = unit_at(position);
   float radius = max(radius_of(direction.w), 0.55 * unit);
-  float reach = radius + unit;  // a sample more, for the part that the edge covers
+  float reach = radius + unit;  // the strip is a sample wider, for samples that are partly covered
   vec3 sight = towards_eye(position), half_way = normalize(sight + light_direction);
   vec3 across = across_of(direction.xyz, sight);
   vec3 facing = normalize(cross(across, direction.xyz));

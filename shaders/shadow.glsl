@@ -1,8 +1,8 @@
-// Shadow of rods on the shell itself. TAPS: 0 without, 1 sharp, 4 with a soft edge; a branch would
-// cost what both its sides do.
+// Shadow of rods on the shell itself. TAPS is 0 without shadow, 1 with sharp and 4 with soft edges.
+// It is a macro because a branch in the shader would cost as much as both its sides.
 #if TAPS > 0
 uniform sampler2DShadow shadow_depth;
-uniform float shadow_blur;  // radius in the map, 0..1
+uniform float shadow_blur;  // radius of the soft edge over the map's side
 #endif
 
 // 1 where the key light reaches a position on the map, 0 in shadow.

@@ -1,5 +1,5 @@
-// Cells: sheets in the colour of the bar next to them, without light, shadow or haze, which would make
-// of it the colour of another value.
+// Cells as sheets in a colour of the colour bar. Light, shadow or haze would change it to the
+// colour of another value.
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 colour;
 uniform mat4 view_projection;

@@ -61,7 +61,10 @@ def number(x, digits=2):
 
 
 def with_error(x, error):
-    """4.13 ± 0.04: both are rounded to the first significant digit of the error."""
+    """4.13 ± 0.04: both are rounded to the first significant digit of the error; without an error that
+    is known and above 0, x alone."""
+    if error in (None, "") or not float(error) > 0:
+        return number(x, 4)
     x, error = float(x), float(error)
     digits = max(0, -math.floor(math.log10(error)))
     return f"{x:.{digits}f} ± {error:.{digits}f}"

@@ -21,7 +21,7 @@ SPACING, DIAMETER, YOUNG, DENSITY = 20.0, 0.8, 83000.0, 6450e-12
 # SHEAR, the round rod has the torsional stiffness of the square (Poisson's ratio 0).
 SIDE, SHARE = DIAMETER * math.sqrt(3) / 2, math.pi / 3
 SHEAR = YOUNG * SHARE / 2 * 0.140577 * SIDE**4 / (math.pi * DIAMETER**4 / 32)
-SHELLS = {"two rods a direction": (2, 40.0, 0.95), "three": (3, 50.0, 0.95),
+SHELLS = {"two rods per direction": (2, 40.0, 0.95), "three": (3, 50.0, 0.95),
           "three with longer legs": (3, 60.0, 0.96)}
 PARTS, LIFT, COUNT = 4, 4.0, 4
 

@@ -23,12 +23,12 @@ END
 cp "$source/app/examples/push.cpp" mine.cpp
 cmake -S . -B build -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$work/prefix" > log
 cmake --build build > log
-build/mine | grep "let go: .* mJ of bending"
+build/mine | grep "released: .* mJ of bending"
 pc=$(dirname "$(find "$work/prefix" -name gridshell.pc)")
 flags=$(PKG_CONFIG_PATH="$pc" pkg-config --cflags --libs gridshell)
 # shellcheck disable=SC2086
 "$compiler" mine.cpp $flags -o by_pkg_config
-./by_pkg_config | grep "let go: .* mJ of bending"
+./by_pkg_config | grep "released: .* mJ of bending"
 # what a user sees of the program
 if [ -x "$work/prefix/bin/gridshell" ]; then
   "$work/prefix/bin/gridshell" list > /dev/null

@@ -55,12 +55,14 @@ def peak_MB(pid):
 
 
 def play(view, hand, seconds, seed):
-    """Events sent, peak of memory in MB, longest pause of the recording in seconds."""
+    """Events sent, peak of memory in MB (0 if the program ended), longest pause of the recording in
+    seconds."""
     begin = last = time.time()
-    sent = size = peak = 0
+    sent = size = 0
     pause = 0.0
     for command in commands(seed):
         if time.time() - begin > seconds or view.poll() is not None:
+            peak = peak_MB(view.pid) if view.poll() is None else 0
             return sent, peak, max(pause, time.time() - last)
         hand.stdin.write(command + "\n")
         sent += 1
@@ -68,8 +70,6 @@ def play(view, hand, seconds, seed):
         now = os.path.getsize("visit.txt") if os.path.exists("visit.txt") else 0
         if now != size:
             pause, size, last = max(pause, time.time() - last), now, time.time()
-        if sent % 100 == 0 and view.poll() is None:
-            peak = peak_MB(view.pid)
 
 
 def main():

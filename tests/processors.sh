@@ -57,7 +57,7 @@ largest_difference() {  # FILE COLUMNS SCALE PROCESSOR
 result=0
 compare() {  # FILE COLUMNS SCALE PROCESSOR
   difference=$(largest_difference "$@")
-  echo "$4 beside $first, $1 ($2): $difference"
+  echo "$4 compared with $first, $1 ($2): $difference"
   case $difference in
     *[a-z]\ *) result=1 ;;
     *) awk -v d="$difference" 'BEGIN { exit !(d <= 1e-9) }' || result=1 ;;

@@ -218,11 +218,13 @@ commented="engine render app tests"
 # the text of each comment as FILE:LINE: text, without names and quotations; "1" where a comment begins
 comments() {
   # shellcheck disable=SC2086 # a list of folders
-  find $commented -name '*.h' -o -name '*.cpp' | sort | xargs awk '
+  find $commented CMakeLists.txt -name '*.h' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \
+    -o -name CMakeLists.txt | sort | xargs awk '
     FNR == 1 { inside = 0 }
-    { line = $0; gsub(/"([^"\\]|\\.)*"/, "\"", line); at = match(line, /\/\/+<?( |$)/) }
+    { script = FILENAME !~ /\.(h|cpp)$/; line = $0; gsub(/"([^"\\]|\\.)*"/, "\"", line)
+      at = match(line, script ? "(^|[ ;])#( |$)" : "//+<?( |$)") }
     !at { inside = 0; next }
-    { whole = line ~ /^ *\/\//; text = substr(line, RSTART + RLENGTH)
+    { whole = line ~ (script ? "^ *#" : "^ *//"); text = substr(line, RSTART + RLENGTH)
       gsub(/`[^`]*`/, "`", text); gsub(/[A-Za-z0-9_]*(::|_|\()[A-Za-z0-9_:()]*/, "`", text)
       printf "%s:%d:%d: %s\n", FILENAME, FNR, !(inside && whole), text; inside = whole }'
 }

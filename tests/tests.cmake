@@ -93,11 +93,11 @@ if(TARGET test_bench)
 endif()
 if(GRIDSHELL_PICTURES)
   gridshell_tests(render gridshell_render gridshell_engine)
-  # every call of the system fails once: tests/faults -> test_faults
+  # every call of the system fails once: `tests/faults` -> `test_faults`
   gridshell_tests(faults gridshell_view gridshell_app gridshell_render gridshell_engine ${CMAKE_DL_LIBS})
   if(TARGET test_faults)
     target_sources(test_faults PRIVATE tests/faults/faults.cpp)
-    # solves fail as well: faults.cpp is between the engine and its linear solver
+    # solves fail as well: `faults.cpp` is between the engine and its linear solver
     target_link_options(test_faults PRIVATE
       "LINKER:--wrap=_ZN9gridshell18make_linear_solverERKNS_5ModelE")
   endif()
@@ -134,17 +134,17 @@ endif()
 
 # The program on processors older and newer than this one, by qemu-user where it is installed.
 if(GRIDSHELL_PICTURES)
-  add_test(NAME "old and new processors run the program and come to the same states"
+  add_test(NAME "old and new processors run the program and give the same states"
     COMMAND ${PROJECT_SOURCE_DIR}/tests/processors.sh $<TARGET_FILE:gridshell>)
-  set_tests_properties("old and new processors run the program and come to the same states"
+  set_tests_properties("old and new processors run the program and give the same states"
     PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
 endif()
 
 # Shells against CalculiX where it is installed.
 if(GRIDSHELL_PICTURES)
-  add_test(NAME "CalculiX forms the same shells, which go as far and sway as fast"
+  add_test(NAME "CalculiX gives the same shells, displacements and frequencies"
     COMMAND python3 ${PROJECT_SOURCE_DIR}/tests/calculix.py $<TARGET_FILE:gridshell>)
-  set_tests_properties("CalculiX forms the same shells, which go as far and sway as fast"
+  set_tests_properties("CalculiX gives the same shells, displacements and frequencies"
     PROPERTIES LABELS full TIMEOUT 900 SKIP_RETURN_CODE 77)
 endif()
 

@@ -175,8 +175,8 @@ Result<void> check_outside_runs(const fs::path& to) {
   for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
        folder = folder.parent_path())
     if (fs::exists(folder / manifest_name, error))
-      return invalid("'{}' would be in the run folder '{}'; choose a folder outside it",
-                     to.string(), folder.string());
+      return invalid("'{}' is in the run folder '{}'; choose a folder outside it", to.string(),
+                     folder.string());
   return {};
 }
 

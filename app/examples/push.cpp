@@ -25,6 +25,6 @@ int main() {
                 report.certificate.stable() ? "stable" : "not stable");
   }
   report = session->release(joint, unwatched);
-  std::printf("let go: %.3f mJ of bending\n", session->energies()[Term::bend]);
+  std::printf("released: %.3f mJ of bending\n", session->energies()[Term::bend]);
   return report.end == Outcome::reached ? 0 : 1;
 }

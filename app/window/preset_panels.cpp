@@ -244,6 +244,10 @@ void NumbersPanel::edit(const Panel& panel, const Row& row) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
   const bool changed = std::visit(Control{panel.viewer, field, id.c_str()}, field.in(edited_, -1));
   if (!changed_before) ImGui::PopStyleColor();
+  if (changed && field.key == "material") {
+    preset::Rod& rod = field.table == "rod" ? edited_.rod : edited_.rod_v;
+    preset::take_material(rod, preset::Rod(rod), [](const char*) { return false; });
+  }
   panel.named(field.table + "." + field.key, row.help);
   if (ImGui::IsItemActive()) active_ = row.name;
   // a number is complete when the control is left

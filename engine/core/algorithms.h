@@ -1,5 +1,5 @@
-// Numbers drawn evenly, the same ones from the same generator on every machine: those of
-// std::uniform_real_distribution differ from library to library.
+// Small algorithms. Uniform random numbers that are equal on every machine for the same generator;
+// those of std::uniform_real_distribution differ between libraries.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,22 @@
 
 namespace gridshell {
 
-/// The next one in [-1, 1).
+/// The next uniform random number in [-1, 1).
 inline double symmetric_uniform(std::mt19937& random) {
   return double(random()) / double(1u << 31) - 1;
 }
 
-// Where a value lies among knots.
+// Search in knots.
 
-/// The k with knots[k] <= t < knots[k + 1], of knots that rise; the first piece below them all, the
-/// last above.
+/// The k with knots[k] <= t < knots[k + 1], for at least two ascending knots; the first piece if t
+/// is below all of them, the last if it is above.
 template <class Knots>
 std::size_t piece_at(const Knots& knots, double t) {
   return std::size_t(std::upper_bound(knots.begin() + 1, knots.end() - 1, t) - knots.begin()) - 1;
 }
 
-/// Sets `place` to `value` and, at the end of the scope, also by an exception, back to what it was.
+/// Sets a variable to `value` and, at the end of the scope, also after an exception, to its
+/// previous value.
 template <class T>
 class SetForScope {
  public:
@@ -38,9 +39,9 @@ class SetForScope {
   T before_;
 };
 
-// Sets that grow together.
+// Disjoint sets.
 
-/// The numbers 0 to size - 1, each a set of its own until sets are joined [Galler, Fischer 1964].
+/// The numbers 0 to size - 1 in disjoint sets, at first one each [Galler, Fischer 1964].
 class UnionFind {
  public:
   explicit UnionFind(std::size_t size) : of_(size) { std::iota(of_.begin(), of_.end(), 0); }
@@ -51,6 +52,7 @@ class UnionFind {
       k = of_[std::size_t(k)] = of_[std::size_t(of_[std::size_t(k)])];
     return k;
   }
+  /// Joins the sets of a and b.
   void join(int a, int b) {
     a = find(a), b = find(b);
     of_[std::size_t(std::max(a, b))] = std::min(a, b);

@@ -12,7 +12,8 @@ namespace gridshell {
 enum class RodModel { automatic, net, bend, twist };
 constexpr auto words(RodModel) { return names_except<RodModel>({{RodModel::automatic, "auto"}}); }
 
-/// Where the grid lines lie: at (i + 1/2) d, or at i d so that one rod of each family is an axis.
+/// Positions of the grid lines: at (i + 1/2) d, or at i d so that one rod of each family is an
+/// axis.
 enum class Placement { half, on_axis };
 
 /// How points of the original boundary correspond to points of the actuated one.
@@ -21,8 +22,8 @@ enum class Correspondence {
   angle,       ///< the same polar angle about the origin
 };
 
-/// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
-/// against it.
+/// The side of an unstable state on which a descent starts: that with the lower final energy, along
+/// a mode, or against it.
 enum class BranchSide { lower, along, against };
 
 }  // namespace gridshell

@@ -53,7 +53,7 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, 
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double c = a.dot(b);
-  // half a turn about any axis across
+  // half a turn about any perpendicular axis
   if (c < -1 + 1e-12) return Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, a.unitOrthogonal()));
   Eigen::Quaterniond turn;
   const double s = std::sqrt(2 * (1 + c));
@@ -78,7 +78,7 @@ Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t) {
   Eigen::MatrixX2d all(Eigen::Index(known.size()), 2);
   const Eigen::VectorXd basis = polynomial_weights(known, t);
   for (std::size_t k = 0; k < known.size(); ++k) {
-    double slope = 0;  // of the basis where it is one
+    double slope = 0;  // of the Lagrange polynomial at its own point
     for (std::size_t j = 0; j < known.size(); ++j)
       if (j != k) slope += 1 / (known[k] - known[j]);
     const double square = std::pow(basis[Eigen::Index(k)], 2), offset = t - known[k];

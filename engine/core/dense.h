@@ -1,5 +1,5 @@
-// Small dense problems. Eigen's decompositions are compiled once, in dense.cpp and dense_eigen.cpp:
-// a file that uses one itself takes seconds longer to compile.
+// Small dense problems. Eigen's decompositions are compiled only in dense.cpp and dense_eigen.cpp:
+// a file that uses one directly takes seconds longer to compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,44 +14,49 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;
 };
 
+/// Eigenvalues and eigenvectors of a symmetric matrix.
 EigenPairs eigen_pairs(const Eigen::MatrixXd& symmetric);
 
-/// Those of A v = lambda B v, A symmetric, B symmetric and positive definite.
+/// Eigenvalues and eigenvectors of A v = lambda B v, A symmetric, B symmetric and positive
+/// definite.
 EigenPairs eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
+/// Eigenvalues of a symmetric matrix in ascending order.
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric);
 
-/// A^-1 and A^-1 b of a square A that has an inverse.
+/// A^-1 of a square, invertible A.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
+/// A^-1 b of a square, invertible A.
 Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-/// A^-1 b of a symmetric positive definite A.
+/// A^-1 b of a symmetric, positive definite A.
 Eigen::VectorXd definite_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-/// X that makes |A X - B| least, A of full rank.
+/// The X that minimises |A X - B|, A of full rank.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
-/// The shortest x of those that make |A x - b| least; pivots below `threshold` of the largest count
+/// The shortest x of those that minimise |A x - b|; pivots below `threshold` of the largest count
 /// as zero.
 Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                        double threshold);
 
-/// The rank of A, with that threshold.
+/// The rank of A; pivots below `threshold` of the largest count as zero.
 Eigen::Index rank_of(const Eigen::MatrixXd& A, double threshold);
 
-/// As many orthonormal columns as those of A span.
+/// An orthonormal basis of the span of the columns of A, which must be linearly independent.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A);
 
-/// R that makes |R x - y| least, columns of x and y being points about their means [Kabsch 1976]: a
-/// rotation, or, where mirrors count too, a reflection.
+/// The R that minimises |R x - y|, the columns of x and y being points relative to their means
+/// [Kabsch 1976]: a rotation or, with `mirrors`, possibly a reflection.
 Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, bool mirrors);
 
-/// Weights at t of the polynomial through values at `known` [Lagrange]; 0 for one left out.
+/// Weights at t of the polynomial through values at `known` [Lagrange]. `left_out`: index of a
+/// value that is not used; its weight is 0.
 Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
                                    std::size_t left_out = std::size_t(-1));
 
-/// Weights at t of the polynomial through values and slopes at `known` [Hermite]: of the values in
-/// the first column, of the slopes in the second.
+/// Weights at t of the polynomial through values and slopes at `known` [Hermite]: those of the
+/// values are in the first column, those of the slopes in the second.
 Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t);
 
 /// The shortest rotation that takes the direction of `from` to that of `to`.

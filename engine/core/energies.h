@@ -1,5 +1,4 @@
-// The potential energy of a shell by term: the one list that solver, frames, columns and summary
-// are filled from.
+// The potential energy of a shell by term: one list for solver, frames, columns and summary.
 #pragma once
 
 #include <array>
@@ -11,7 +10,8 @@
 
 namespace gridshell {
 
-/// What stores energy in a shell. A term more: a line here, one in `energy_terms`, its energy.
+/// Terms of a shell's energy. A new term needs an enumerator, a line in `energy_terms` and its
+/// energy.
 enum class Term { bend, stretch, twist, joint, shear, load, support, contact };
 
 /// Name of a term, as in `energy_bend_mJ`, and its meaning.
@@ -73,7 +73,7 @@ class Energies {
   }
   friend bool operator==(const Energies&, const Energies&) = default;
 
-  /// Energies that nobody worked out: all NaN.
+  /// Energies that are not known: all NaN.
   static Energies not_known() {
     Energies energies;
     energies.mJ_.fill(std::numeric_limits<double>::quiet_NaN());

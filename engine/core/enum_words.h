@@ -1,4 +1,4 @@
-// The words of an enum: its enumerators' own names, but for exceptions.
+// The names of an enum's enumerators in files: their identifiers, with exceptions.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct EnumWord {
   std::string_view word;
 };
 
-/// How the compiler spells an enumerator, "gridshell::Seed::up"; what is none it writes as a cast
-/// number, "(gridshell::Seed)7".
+/// An enumerator as the compiler writes it, "gridshell::Seed::up"; a value that is no enumerator is
+/// written as a cast, "(gridshell::Seed)7".
 template <auto value>
 consteval std::string_view enumerator_text() {
   std::string_view text = __PRETTY_FUNCTION__;

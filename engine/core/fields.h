@@ -1,4 +1,5 @@
-// The members of a record, named once: tables, JSON and files are written and read by one list.
+// A list of the members of a record with their names, by which tables, JSON and files are written
+// and read.
 //
 //   template <RecordOf<Barrier> Row, class Visit>
 //   void fields(Row& row, const Visit& visit) {
@@ -11,11 +12,11 @@
 
 namespace gridshell {
 
-/// A record, or one that is const.
+/// `Record` or `const Record`.
 template <class Type, class Record>
 concept RecordOf = std::same_as<std::remove_const_t<Type>, Record>;
 
-/// visit(name, member) for every pair of a name and a member, in order.
+/// Calls visit(name, member) for every pair of a name and a member, in order.
 template <class Visit, class Name, class Member, class... Others>
 void visit_each(const Visit& visit, const Name& name, Member& member, Others&... others) {
   visit(name, member);

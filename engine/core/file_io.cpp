@@ -25,7 +25,7 @@ int Descriptor::close() {
 }
 
 AtomicFile::AtomicFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
-  // the name goes last: encoders choose a format by the extension
+  // the name is at the end: encoders choose a format by the extension
   temporary_ =
       final_.parent_path() / fmt::format(".partial-{}-{}", ::getpid(), final_.filename().string());
 }
@@ -64,7 +64,7 @@ void Checksum::add(std::string_view bytes) {
 int append_whole(int descriptor, std::string_view bytes, std::uint64_t& size) {
   const int code = write_all(descriptor, bytes);
   if (code == 0) size += bytes.size();
-  // what others find is whole
+  // a partial write is removed, so that readers find complete lines only
   if (code && ::ftruncate(descriptor, off_t(size)) == 0) ::lseek(descriptor, off_t(size), SEEK_SET);
   return code;
 }
@@ -114,7 +114,7 @@ Result<std::string> read_all(int file, const std::filesystem::path& path, std::u
     return fail(Fault::io, "cannot read '{}': it is larger than {} MB", path.string(), limit >> 20);
   };
   if (expected > limit) return too_large();
-  // some files of the system say that they are empty, so the count is what decides
+  // some files of the system report a size of 0, so the bytes that were read are counted
   std::string bytes;
   bytes.reserve(std::size_t(expected));
   std::vector<char> block(1 << 16);

@@ -13,14 +13,14 @@
 
 namespace gridshell {
 
-/// A file in the making, for writers that need a path (HDF5, libpng, an encoder):
+/// A file while it is written, for writers that need a path (HDF5, libpng, an encoder):
 ///
 ///     AtomicFile file("out/trajectory.h5");
 ///     ... write, flush and close file.temporary() ...
 ///     return file.commit();
 ///
-/// Without a commit the temporary is removed. It lies in the folder of the final path, is hidden,
-/// bears the process id (two runs do not meet) and keeps the extension.
+/// Without a commit the temporary file is removed. It is in the folder of the final path, is
+/// hidden, has the process id in its name (for several runs at once) and the same extension.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);
@@ -39,7 +39,7 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// A file descriptor that closes itself; negative: none.
+/// A file descriptor that is closed by its destructor; negative: none.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -58,7 +58,7 @@ class Descriptor {
   int number_;
 };
 
-/// Fault::io, "cannot write 'path': reason of the system".
+/// An error Fault::io, "cannot WHAT 'path': reason of the system".
 tl::unexpected<Error> fail_io(const char* what, const std::filesystem::path& path, int code);
 
 /// A regular file open for reading: a pipe or a device, which may never end, is refused.
@@ -97,13 +97,14 @@ inline constexpr std::uintmax_t largest_text = std::uintmax_t(16) << 20,
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uintmax_t limit = largest_file);
 
-/// All that comes through a pipe, at most `limit` bytes; waits for it. Errors as read_file().
+/// Reads a pipe to its end, at most `limit` bytes; waits for the bytes. Errors as read_file().
 Result<std::string> read_pipe(const std::filesystem::path& path, std::uintmax_t limit);
 
-/// Makes a folder and its parents; one that exists is fine. Errors: Fault::io, path and reason.
+/// Makes a folder and its parents; an existing folder is no error. Errors: Fault::io, path and
+/// reason.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-/// Files of many bytes bear a CRC-32, lines a 64-bit FNV-1a, and so do files of version 0.2.
+/// Large files have a CRC-32; lines, and files of version 0.2, a 64-bit FNV-1a.
 enum class ChecksumKind { fnv1a, crc32 };
 
 /// The checksum of a run's files. It detects damage, not intent.

@@ -10,7 +10,7 @@ std::string dumped(const Json& json, int indent, bool ascii) {
   return json.dump(indent, ' ', ascii, Json::error_handler_t::replace);
 }
 
-/// An integer in the range of int; empty for any other value.
+/// The value as an int if it is an integer in the range of int, else empty.
 std::optional<int> whole_number(const Json& json) {
   if (!json.is_number_integer()) return std::nullopt;
   const bool fits = json.is_number_unsigned() ? std::in_range<int>(json.get<std::uint64_t>())

@@ -1,4 +1,4 @@
-// JSON read and written in one source file, since its templates take seconds to compile in each.
+// Reading and writing JSON in one source file, since its templates take seconds to compile.
 #pragma once
 
 #include <map>
@@ -13,22 +13,24 @@
 
 namespace gridshell {
 
-/// Keys keep their order.
+/// JSON whose keys are in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-/// The value of a text; one that is_discarded() where the text is not JSON.
+/// The value of a text; if the text is not JSON, a value with is_discarded().
 Json parsed(std::string_view text);
 
-/// Indented, with a newline at its end. NaN becomes null, a broken UTF-8 sequence U+FFFD.
+/// JSON as indented text with a newline at its end. NaN becomes null, an invalid UTF-8 sequence
+/// U+FFFD.
 std::string text_of(const Json& json);
 
-/// JSON on one line without a newline; `ascii`: other letters as \uXXXX.
+/// JSON on one line without a newline; `ascii`: other characters as \uXXXX.
 std::string line_of(const Json& json, bool ascii = false);
 
-/// Assigns a value of the right kind. Returns what it must be if it is another, else an empty text.
+/// Assigns a value of the right type. If it has another type, returns the expected one, else an
+/// empty text.
 std::string take(const Json& json, int& value);
 std::string take(const Json& json, bool& value);
-/// null is an unknown number, NaN.
+/// As above; null becomes NaN, an unknown number.
 std::string take(const Json& json, double& value);
 std::string take(const Json& json, std::string& value);
 std::string take(const Json& json, std::vector<std::string>& value);
@@ -57,8 +59,8 @@ Json json_of(const Record& record) {
   return json;
 }
 
-/// Takes the members of a record out of an object; a key that it lacks is left alone where
-/// `may_lack(key)`. What is wrong with the first that is; empty when all is well.
+/// Reads the members of a record from an object; a missing key is no error if `may_lack(key)`.
+/// Returns the first error as a text; empty: there is none.
 template <class Record, class MayLack>
 std::string take_fields(const Json& json, Record& record, const MayLack& may_lack) {
   std::string fault;

@@ -1,4 +1,4 @@
-// Values to bytes and back, in the numbers of the machine.
+// Conversion of values to bytes and back, in the machine's representation.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace gridshell {
 
-/// Values to bytes.
+/// Converts values to bytes.
 class ByteWriter {
  public:
   template <class T>
@@ -49,7 +49,7 @@ class ByteReader {
 
   template <class T>
   T number() {
-    // a byte that is neither 0 nor 1 is no bool, nor may it become one
+    // another byte than 0 and 1 in a bool is undefined behaviour
     if constexpr (std::is_same_v<T, bool>) {
       const auto byte = number<std::uint8_t>();
       good_ = good_ && byte <= 1;
@@ -68,7 +68,7 @@ class ByteReader {
     const auto rows = number<std::int64_t>(), cols = number<std::int64_t>();
     const auto most = std::int64_t(left_.size() / sizeof(typename Matrix::Scalar));
     const auto fits = [&](std::int64_t extent, int requested) {
-      // an empty one may have rows or columns still
+      // a matrix without entries may still have rows or columns
       return requested >= 0 ? extent == requested
                             : extent >= 0 && extent <= std::max<std::int64_t>(most, 3);
     };

@@ -1,4 +1,4 @@
-// Things at points of space, found by cubes.
+// A grid of cubes in which points of space are found.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,15 @@
 
 namespace gridshell {
 
-/// Cubes of one size, each with the numbers of the things that lie in it.
+/// Cubes of one size, each with the numbers of the points in it.
 class PointGrid {
  public:
   explicit PointGrid(double size_mm) : size_(size_mm) {}
 
   void add(int thing, const Eigen::Vector3d& p) { cells_[cell_of(p)].push_back(thing); }
 
-  /// Whether `holds` is true of one of the things in the 27 cubes around p: of all that are nearer
-  /// than the cubes' size, and of some others.
+  /// Whether `holds` is true for a point in the 27 cubes around p. These contain all points that
+  /// are nearer to p than the cubes' size, and some others.
   template <class Holds>
   bool any_near(const Eigen::Vector3d& p, const Holds& holds) const {
     const BoxGrid::Cell middle = cell_of(p);

@@ -11,7 +11,7 @@ NearestPoints nearest_points(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
     return below > 0 ? std::clamp(above / below, 0.0, 1.0) : 0.0;
   };
   NearestPoints near;
-  // where the lines are nearest; of parallel lines the start
+  // the nearest point of the lines; for parallel lines the start
   const double across = dd * ee - de * de;
   near.s = across > 1e-14 * dd * ee ? within(de * er - dr * ee, across) : 0;
   near.t = within(de * near.s + er, ee);
@@ -29,7 +29,7 @@ BoxPlane::BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm) {
     mean += each.sizes() / double(count);
     largest = largest.cwiseMax(each.sizes());
   }
-  // the plane with the largest distance between them
+  // the plane perpendicular to the shortest side of the box around all
   Eigen::Index across = 0;
   if (count > 0) all.sizes().minCoeff(&across);
   const Eigen::Index axes[2] = {(across + 1) % 3, (across + 2) % 3};
@@ -39,7 +39,7 @@ BoxPlane::BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm) {
   for (int k = 0; k < 2 && count > 0; ++k) {
     const double whole = all.sizes()[axes[k]];
     size[k] = std::max(std::min(largest[axes[k]], 4 * mean[axes[k]]) + mm, whole / most);
-    // all in one cell where there is no size
+    // all boxes are in one cell if the extent is zero
     *cells[k] = size[k] > 0 ? int(std::min(most, whole / size[k])) + 1 : 1;
   }
   const auto cell_of = [&](const Eigen::AlignedBox3d& each) {
@@ -95,7 +95,7 @@ BoxGrid::Cell BoxGrid::cell_of(const Eigen::Vector3d& p) const {
   Cell cell;
   for (int k = 0; k < 3; ++k) {
     const double place = std::floor(p[k] / size_);
-    // far away all is one cell
+    // all points far away are in one cell
     cell[std::size_t(k)] =
         std::abs(place) < 1e15 ? std::int64_t(place) : std::int64_t(place > 0 ? 1e15 : -1e15);
   }

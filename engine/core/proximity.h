@@ -1,4 +1,4 @@
-// What is near what in space: segments, boxes, and things found by where they are.
+// Search for near objects in space: segments, boxes, and a grid of cubes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@
 namespace gridshell {
 
 /// The nearest points of the segments p + s (q - p) and a + t (b - a), s and t in [0, 1], and the
-/// square of their distance [Ericson 2004, 5.1.9]. Of parallel ones, one of the nearest pairs.
+/// square of their distance [Ericson 2004, 5.1.9]. For parallel segments, one of the nearest pairs.
 struct NearestPoints {
   double s = 0, t = 0, distance2 = 0;
 };
@@ -25,18 +25,18 @@ inline bool are_near(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b,
 }
 
 /// Boxes sorted into the cells of a plane, by their lowest corners. Cells are so wide that boxes
-/// which are within mm of each other lie in neighbouring ones, but for those of `wide`.
+/// within mm of each other are in the same or in neighbouring cells, except those of `wide`.
 struct BoxPlane {
   BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm);
 
   int columns = 1, rows = 1;
   std::vector<int> first;   ///< index of a cell's first box, row after row, and the end
-  std::vector<int> number;  ///< of the box at an index
+  std::vector<int> number;  ///< number of the box at an index
   std::vector<Eigen::AlignedBox3d> box;
-  std::vector<int> wide;  ///< in no cell
+  std::vector<int> wide;  ///< numbers of the boxes that are too wide for a cell
 };
 
-/// visit(i, j), i < j, once for every two boxes that are within mm of each other.
+/// Calls visit(i, j), i < j, once for every two boxes that are within mm of each other.
 template <class Visit>
 void each_near_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double mm, const Visit& visit) {
   const BoxPlane plane(boxes, mm);
@@ -70,7 +70,7 @@ void each_near_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double mm, co
   }
 }
 
-/// Cubes of one size, each with the numbers of the things whose boxes reach into it.
+/// Cubes of one size, each with the numbers of the boxes that overlap it.
 class BoxGrid {
  public:
   using Cell = std::array<std::int64_t, 3>;
@@ -85,10 +85,11 @@ class BoxGrid {
 
   explicit BoxGrid(double size_mm) : size_(size_mm) {}
 
-  /// False where it would take more than `most` entries in all; the thing is then not in it.
+  /// Adds a box with the number `thing`. Returns false, without adding it, if the grid would have
+  /// more than `most` entries.
   bool add(int thing, const Eigen::AlignedBox3d& box, std::size_t most);
 
-  /// What may be at a point; nothing: nothing is.
+  /// Numbers of the boxes that may contain a point; null: none.
   const std::vector<int>* at(const Eigen::Vector3d& p) const;
   const Cells& cells() const { return cells_; }
 

@@ -31,7 +31,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthand for `return fail(Fault::io, "...")`.
+/// Makes an error, as in `return fail(Fault::io, "...")`.
 inline tl::unexpected<Error> fail(Fault fault, std::string message) {
   return tl::unexpected<Error>(Error{fault, std::move(message)});
 }

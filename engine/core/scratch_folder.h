@@ -1,4 +1,4 @@
-// A folder for files that go again.
+// A folder for temporary files.
 #pragma once
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// Which gridshell this is.
+// Version and build of the program, clocks, and the machine's memory.
 #pragma once
 
 #include <time.h>
@@ -8,7 +8,7 @@
 
 namespace gridshell {
 
-/// "0.2.0", that of the CMake project.
+/// The version of the CMake project: "0.2.0".
 const char* version();
 
 /// Identifies the build: the version, and the hash that the linker gave the program or library (the
@@ -22,21 +22,21 @@ inline double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Seconds that the processor has worked for a thread, by default the calling one: other programs
-/// and threads on the machine do not count.
+/// Processor time of a thread, s, by default of the calling one; other programs and threads do not
+/// count.
 inline double cpu_seconds_now(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   timespec t{};
   clock_gettime(clock, &t);
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-// How much memory there is to work with.
+// Available memory.
 
-/// Bytes of the machine, or of the fraction that a container gives this program; 0 when nobody
-/// says.
+/// Memory of the machine, or the limit of the container that the program runs in, bytes; 0: not
+/// known.
 std::uint64_t machine_memory_bytes();
 
-/// What a command may use where a preset does not say ([accuracy] memory_GB): half of that.
+/// Limit of a command's memory without [accuracy] memory_GB in the preset, GB: half of the memory.
 inline double default_memory_GB() { return 0.5e-9 * double(machine_memory_bytes()); }
 
 }  // namespace gridshell

@@ -6,15 +6,15 @@
 
 #include "engine/core/system_info.h"
 
-// there only where OpenBLAS is what is linked
+// null unless OpenBLAS is linked
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace gridshell {
 namespace {
 
-constexpr int spins = 3000;  // some 100 microseconds: rounds follow one another closely
+constexpr int spins = 3000;  // about 100 microseconds: rounds follow one another closely
 
-/// Lets the other thread of a core work meanwhile.
+/// Lets the other thread of a core work for a moment.
 inline void pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -63,7 +63,7 @@ void Team::work() {
   try {
     for (int k = next_++; k < tasks_; k = next_++) (*task_)(k);
   } catch (...) {
-    // tasks that nobody has begun are left out
+    // tasks that are not started yet are left out
     next_.store(tasks_);
     const std::lock_guard lock(guard_);
     if (!thrown_) thrown_ = std::current_exception();

@@ -18,7 +18,7 @@ namespace gridshell {
 /// A caller and threads that help it; one caller at a time.
 class Team {
  public:
-  /// `threads` in all, the caller among them.
+  /// `threads`: number of threads, including the caller.
   explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
@@ -37,8 +37,8 @@ class Team {
 
   const std::function<void(int)>* task_ = nullptr;
   int tasks_ = 0;
-  std::atomic<int> next_{0};  // task
-  std::atomic<int> busy_{0};  // helpers that are not done with this round
+  std::atomic<int> next_{0};  // next task
+  std::atomic<int> busy_{0};  // helpers that have not finished this round
   std::atomic<std::uint32_t> round_{0};
   std::mutex guard_;
   std::exception_ptr thrown_;  // the first of this round
@@ -51,14 +51,14 @@ inline void parallel_for(Team* team, int tasks, const std::function<void(int)>& 
   for (int k = 0; k < tasks; ++k) task(k);
 }
 
-// When a method is cut off.
+// Threads of BLAS, and a limit of processor time.
 
 /// Restricts BLAS to the calling thread, if the library supports it (OpenBLAS): its threads would
 /// not be counted, and sums would depend on their number.
 void keep_blas_on_one_thread();
 
-/// A Watch of its own that is cancelled once the thread that made it has worked for `seconds` more,
-/// or with `outer`.
+/// A Watch that is cancelled after `seconds` of processor time of the thread that made it, or when
+/// `outer` is cancelled.
 class TimeLimit {
  public:
   TimeLimit(double seconds, const Watch& outer);
@@ -68,7 +68,7 @@ class TimeLimit {
 
   const Watch& watch() const { return watch_; }
   Watch& watch() { return watch_; }
-  /// Whether the time ran out, and not the patience of the user.
+  /// Whether the time ran out and `outer` was not cancelled.
   bool ran_out() const { return watch_.cancelled() && !outer_.cancelled(); }
 
  private:

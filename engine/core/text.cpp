@@ -30,7 +30,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   std::string best;
   int least = std::max<int>(1, int(word.size()) / 3) + 1;
   for (const auto& name : known) {
-    // a word of a million letters is not looked at letter by letter
+    // long words are not compared letter by letter
     const auto longer = std::max(word.size(), name.size()),
                shorter = std::min(word.size(), name.size());
     if (longer - shorter >= std::size_t(least)) continue;
@@ -40,7 +40,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
       best = name;
     }
   }
-  // a name cut short is far by its letters
+  // a name without its end has a large distance
   if (best.empty() && word.size() >= 3)
     for (const auto& name : known)
       if (name.starts_with(word)) return name;

@@ -10,8 +10,8 @@
 
 namespace gridshell {
 
-/// `text` as a number, if it is one from its first character to its last; `how` as
-/// std::from_chars takes it: the base of an integer, the format of a real number.
+/// `text` as a number; empty unless all of its characters belong to the number. `how`: arguments of
+/// std::from_chars, the base of an integer or the format of a real number.
 template <class Number, class... How>
 std::optional<Number> parse_number(std::string_view text, How... how) {
   Number number = 0;
@@ -20,7 +20,7 @@ std::optional<Number> parse_number(std::string_view text, How... how) {
   return number;
 }
 
-/// The words of a line, between any of the letters of `apart`.
+/// The words of a line, separated by any of the characters of `apart`.
 inline std::vector<std::string_view> words_in(std::string_view line,
                                               std::string_view apart = " \t\r\f\v") {
   std::vector<std::string_view> words;
@@ -30,6 +30,11 @@ inline std::vector<std::string_view> words_in(std::string_view line,
     at = end;
   }
   return words;
+}
+
+/// "1 rod", "2 rods".
+inline std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 /// Removes the next line from the front of a text and returns it without its end.
@@ -42,25 +47,25 @@ inline std::string_view next_line(std::string_view& text) {
 
 // "Did you mean ...": the known name nearest to a mistyped one.
 
-/// Letters inserted, left out, changed, or swapped with a neighbour, at least how many
-/// (optimal string alignment distance); upper and lower case count as the same letter.
+/// Least number of letters that are inserted, left out, changed, or exchanged with a neighbour
+/// (optimal string alignment distance); upper and lower case are equal.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest of `known` to `word` if it is similar enough (at most a third of its letters wrong,
-/// but one may be; or the end missing), else empty. Of equal ones the first.
+/// The name in `known` that is most similar to `word`, if at most a third of the letters differ
+/// (one letter always may) or the end is missing; else empty. Of equally similar ones the first.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
-/// "; did you mean 'x'?", or empty when nothing is near.
+/// "; did you mean 'x'?", or empty if no name is similar.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
-/// The message on a value: of the reason "rods would touch, expected less than 2" it makes "KEY:
-/// got VALUE (rods would touch), expected less than 2", of "expected less than 2" "KEY: got VALUE,
-/// expected less than 2", and of a reason without an expectation "KEY: got VALUE: REASON".
+/// The error message on a value. The reason "rods would touch, expected less than 2" gives "KEY:
+/// got VALUE (rods would touch), expected less than 2"; "expected less than 2" gives "KEY: got
+/// VALUE, expected less than 2"; a reason without an expectation gives "KEY: got VALUE: REASON".
 std::string got_text(const std::string& key, const std::string& value, const std::string& reason);
 
-// Text as XML takes it.
+// Text in XML.
 
-/// Without the signs that XML takes for itself, and without control characters.
+/// The text for XML: characters with a meaning in XML are escaped, control characters are left out.
 inline std::string escape_xml(std::string_view letters) {
   std::string xml;
   for (char c : letters) {
@@ -71,6 +76,8 @@ inline std::string escape_xml(std::string_view letters) {
       xml += "&lt;";
     else if (c == '>')
       xml += "&gt;";
+    else if (c == '"')
+      xml += "&quot;";
     else if (!control)
       xml += c;
   }

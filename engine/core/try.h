@@ -1,4 +1,4 @@
-// Errors handed on in one line. Macros, so only .cpp files include this header.
+// Macros that pass on an error in one line. Only .cpp files include this header.
 #pragma once
 
 #include "engine/core/result.h"

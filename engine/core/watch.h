@@ -12,14 +12,15 @@ class Watch {
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
 
-  /// fraction of the work done, in [0, 1]; smaller values than before are ignored
+  /// Reports the fraction of the work that is done, in [0, 1]; smaller values than before are
+  /// ignored.
   void report(double fraction) noexcept {
     if (fraction > progress_.load(std::memory_order_relaxed))
       progress_.store(fraction, std::memory_order_relaxed);
   }
   double progress() const noexcept { return progress_.load(std::memory_order_relaxed); }
 
-  /// the current path parameter and the edges per segment of the mesh that is solved
+  /// The current path parameter, and the edges per segment of the mesh that is solved.
   struct Place {
     double t = 0;
     int edges = 0;  ///< 0: on no path yet
@@ -36,12 +37,12 @@ class Watch {
   static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
   std::atomic<bool> cancelled_{false};
   std::atomic<double> progress_{0.0};
-  // reported by work that can only be cancelled
+  // mutable, as work that has a const Watch reports them, too
   mutable std::atomic<double> t_{0.0};
   mutable std::atomic<int> edges_{0};
 };
 
-/// For work that nobody stops.
+/// A Watch for work that is never cancelled.
 inline const Watch unwatched;
 
 }  // namespace gridshell

@@ -14,7 +14,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double same_place = 1e-4;  // of d: what counts as symmetric
+constexpr double same_place = 1e-4;  // in d: largest distance of symmetric positions
 
 Eigen::Matrix2Xd uv_of_joints(const Scene& scene) {
   Eigen::Matrix2Xd uv(2, Eigen::Index(scene.footprint.joints.size()));
@@ -35,9 +35,10 @@ OptimiseOptions options_of(const preset::Inverse& inverse) {
   return options;
 }
 
-/// What every design works on, whether it goes to its end or is watched and stopped.
+/// The task of a design: shells, target, variables and options.
 struct DesignProblem {
-  std::unique_ptr<DesignShell> coarse, fine;  ///< on the two meshes
+  std::unique_ptr<DesignShell> coarse,
+      fine;  ///< on the mesh of the optimisation, of the certificate
   DesignTarget target;
   int symmetries = 1;
   DesignVariables variables;
@@ -45,7 +46,7 @@ struct DesignProblem {
   double jump_mm = 0;  ///< largest accepted distance of the Newton result from a prediction
 };
 
-/// Whether a shell has what a design needs.
+/// Checks that a shell has what a design needs. Errors: bad_input.
 Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   if (preset.inverse.vary.empty())
     return invalid(
@@ -61,23 +62,23 @@ Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   return {};
 }
 
-/// Pins and legs as a builder measures them; 0: exact.
+/// Pins and legs rounded to `to_mm`, as a builder measures them; 0: not rounded.
 ShellEnds rounded(ShellEnds ends, double to_mm) {
   if (to_mm == 0) return ends;
   const auto round = [to_mm](double value) { return std::round(value / to_mm) * to_mm; };
   ends.at = ends.at.unaryExpr(round);
-  // no leg is rounded away
+  // a short leg must not become zero
   ends.leg = ends.leg.unaryExpr(round).cwiseMax(to_mm);
   return ends;
 }
 
-/// The task of a preset's [inverse] for a shell of its scene, in equilibrium on the mesh of the
-/// optimisation. Errors: bad_input (ends without the requested variables), no_equilibrium (on the
-/// mesh that certifies), cancelled.
+/// Sets up the design of a preset's [inverse] for a shell of its scene, `coarse`, which is in
+/// equilibrium on the mesh of the optimisation. Errors: bad_input (ends without the requested
+/// variables), no_equilibrium (on the mesh that certifies), cancelled.
 Result<DesignProblem> begin_design(const preset::Preset& preset, const Scene& scene,
                                    std::unique_ptr<DesignShell> coarse, const Watch& watch) {
   TRY(target, design_target(scene, preset.inverse.target));
-  // the same shell on the mesh that certifies
+  // the shell on the mesh that certifies
   TRY(fine, DesignShell::make(scene, certified_on, coarse->mesh(), coarse->model(), coarse->state(),
                               watch));
   const double spacing = scene.footprint.spacing;
@@ -107,7 +108,7 @@ DesignedState described(DesignShell& shell, DesignTarget& target) {
   return state;
 }
 
-/// The shell of the scene as it is, on the mesh that is designed on.
+/// The shell of the scene before the design, on the mesh of the optimisation.
 Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& scene,
                                            const Watch& watch) {
   TRY(course, simulate::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
@@ -149,7 +150,8 @@ FabricationErrors fabricate(DesignShell& shell, DesignTarget& target, double sig
   return found;
 }
 
-/// The last step that the mesh that certifies finds stable enough too; both shells end there.
+/// Finds the last step that is stable enough on the mesh that certifies, too, and moves both shells
+/// to it. Errors: no_equilibrium.
 Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
                             const DesignVariables& variables, const std::vector<DesignStep>& steps,
                             double allowed, double jump_mm) {
@@ -160,7 +162,8 @@ Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
     const auto on_fine = fine.move_in_steps(ends, jump_mm);
     if (on_fine && fine.smallest_eigenvalue() >= allowed && coarse.move_in_steps(ends, jump_mm))
       return k;
-    why = on_fine ? "it is too soft" : on_fine.error().message;
+    why = on_fine ? "its lowest eigenvalue is below the limit of min_stability"
+                  : on_fine.error().message;
   }
   return fail(Fault::no_equilibrium, "with {} edges per segment the designed shell is lost: {}",
               certified_on, why);
@@ -266,6 +269,8 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
   DesignStep begin;
   begin.eigenvalue = work.coarse->smallest_eigenvalue(watch);
   if (watch.cancelled()) return stopped();
+  if (std::isnan(softest))
+    return fail(Fault::no_equilibrium, "the lowest eigenvalue of the shell did not converge");
   const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
   begin.max_mm = distances.maxCoeff();
   begin.mean_mm = distances.mean();
@@ -282,7 +287,7 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
              if (eigenvalue >= allowed && !watch.cancelled()) hand_over(step, eigenvalue);
            });
   end.stopped = watch.cancelled();
-  // who stops it does not wait for more
+  // after a cancel nothing more is computed
   if (!end.stopped &&
       work.fine->move_in_steps(rounded(last, preset.inverse.round_mm), work.jump_mm))
     end.rounded_max_mm = work.target.distances(work.fine->joints()).size().maxCoeff();

@@ -1,4 +1,4 @@
-// Inverse design: from a preset whose shell misses its surface to one whose shell meets it.
+// Inverse design: changes the ends and rods of a preset so that its shell is nearer to the target.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,8 @@ struct Assembly;
 /// Edges per segment of a design: an optimum found with 4 edges is a saddle of the shell.
 inline constexpr int designed_on = 16, certified_on = 32;
 
-/// What a design aims at, for the joints of a scene that has a net. Errors: those of the net.
+/// The target of a design for the joints of a scene, which must have a net. Errors: those of the
+/// net.
 Result<DesignTarget> design_target(const Scene& scene, preset::Target kind);
 
 /// A shell with given ends, in equilibrium on one mesh.
@@ -32,7 +33,7 @@ struct DesignedState {
   double residual_N = 0;
 };
 
-/// Shells as built, with errors: every pin and leg is off by a normally distributed error.
+/// Shells with fabrication errors: every pin and leg has a normally distributed error.
 struct FabricationErrors {
   double sigma_mm = 0;
   int samples = 0, lost = 0;  ///< lost: no stable equilibrium found nearby
@@ -53,11 +54,11 @@ struct DesignResult {
   int symmetries = 1, free_variables = 0;
   double largest_move_mm = 0, largest_turn_deg = 0;
   double largest_thickening = 0;            ///< change of a diameter over the one before
-  double thinnest_mm = 0, thickest_mm = 0;  ///< of the designed rods
+  double thinnest_mm = 0, thickest_mm = 0;  ///< diameters of the designed rods
   double cpu_s = 0;
-  preset::Points table, rounded_table;    ///< of `[ends] table`
-  std::vector<int> row_of_end;            ///< in them; -1: a free end
-  preset::Points rods_before, rod_table;  ///< of `[rod] table`
+  preset::Points table, rounded_table;    ///< rows for `[ends] table`
+  std::vector<int> row_of_end;            ///< row of each end in both tables; -1: a free end
+  preset::Points rods_before, rod_table;  ///< rows for `[rod] table`
 };
 
 /// Designs the shell of a preset as its [inverse] table says: on meshes of 16 edges per segment,
@@ -67,13 +68,13 @@ struct DesignResult {
 Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
                             const std::function<void(const DesignStep&)>& seen = {});
 
-/// The nearest points of the target to nodes of a shell (3 x nodes) whose positions in the flat
-/// grid are `flat`; where the net is not known, the nodes themselves. Errors: those of building a
-/// scene.
+/// The points of the target that are nearest to nodes of a shell (3 x nodes); `flat`: positions of
+/// the nodes in the flat grid. Where the net does not extend to a node, the node itself is
+/// returned. The preset's footprint must be a net. Errors: those of building a scene.
 Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::Matrix3Xd& flat,
                                     const Eigen::Matrix3Xd& nodes);
 
-// A design that somebody watches, step by step, and stops when it is good enough.
+// An interactive design: the user sees each step and may stop it.
 
 /// A step that is confirmed with 16 and 32 edges per segment: in equilibrium, stable, above the
 /// least stability.
@@ -86,7 +87,7 @@ struct CertifiedStep {
   const Assembly& forces;
   const ShellEnds& shell_ends;
   double residual_N = 0;
-  const Eigen::VectorXd& distances_mm;  ///< of the joints from the target
+  const Eigen::VectorXd& distances_mm;  ///< distances of the joints from the target
   double eigenvalue = 0;                ///< smallest on 32 edges, N/mm^2
   preset::Points ends, rods;            ///< `[ends] table`, `[rod] table`
 };
@@ -99,12 +100,12 @@ struct DesignStart {
   const State& state;
 };
 
-/// How it ended.
+/// How an interactive design ended.
 struct LiveDesignResult {
-  bool stopped = false;  ///< before the optimum
-  int iterations = 0;    ///< refused ones too
-  /// Largest distance at 32 edges with pins and legs rounded to `[inverse] round_mm`; none where
-  /// that shell is lost, and where it was stopped.
+  bool stopped = false;  ///< whether it was stopped before the optimum
+  int iterations = 0;    ///< including refused ones
+  /// Largest distance at 32 edges with pins and legs rounded to `[inverse] round_mm`; empty if that
+  /// shell has no equilibrium, or after a stop.
   std::optional<double> rounded_max_mm;
 };
 

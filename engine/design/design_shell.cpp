@@ -14,7 +14,7 @@ EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
   return {along.normalized(), along.norm()};
 }
 
-/// Half the natural lengths of the edges at a bend; a ghost's does not count.
+/// Sum of the natural lengths of the two edges at a bend; that of a ghost is 0.
 double lengths_at(const Model& model, const ModelBend& bend) {
   return 2 * length_between(model, bend.e, bend.f);
 }
@@ -84,7 +84,8 @@ void DesignShell::find_legs() {
     bends_[rod_of[std::size_t(model_.bends[k].e)]].push_back(int(k));
 }
 
-/// EA goes with the square of a diameter, EI with its fourth power.
+/// Sets the diameters of the model: EA grows with the square of a diameter, EI with its fourth
+/// power.
 void DesignShell::set_diameters(const ShellEnds& ends) {
   for (std::size_t r = 0; r < model_.rods.size(); ++r) {
     double& now = diameter_[Eigen::Index(r)];
@@ -97,7 +98,7 @@ void DesignShell::set_diameters(const ShellEnds& ends) {
   }
 }
 
-/// Every edge of a leg has its fraction of the leg's length.
+/// Sets the lengths of the legs, distributed evenly over their edges.
 void DesignShell::set_legs(const ShellEnds& ends) {
   for (std::size_t k = 0; k < legs_.size(); ++k) {
     const Leg& leg = legs_[k];
@@ -133,7 +134,8 @@ void DesignShell::back_to(const ShellPosition& stand) {
   system_->at(state_, false);
 }
 
-/// From where its columns are.
+/// Sets the ends and finds the equilibrium by Newton's method from the current positions. Errors:
+/// no_equilibrium, cancelled.
 Result<void> DesignShell::settle(const ShellEnds& ends, double farthest_mm, const Watch& watch) {
   const auto failed = [](const std::string& why) { return fail(Fault::no_equilibrium, why); };
   set_legs(ends);
@@ -194,7 +196,7 @@ Result<void> DesignShell::move_in_steps(const ShellEnds& ends, double farthest_m
   return {};
 }
 
-/// How all columns follow, to first order: dx = -H^-1 dg + what is prescribed.
+/// First-order change of all columns: dx = -H^-1 dg, plus the prescribed displacements.
 Eigen::Matrix3Xd DesignShell::follow(const Change& change) const {
   Eigen::Matrix3Xd x;
   multiply(model_, system_->assembly().hessian, change.prescribed, x);
@@ -208,12 +210,12 @@ Eigen::Matrix3Xd DesignShell::follow(const Change& change) const {
   return x + change.prescribed;
 }
 
-/// -dg/d(ln diameter) = -(4 g_bend + 2 g_stretch) of a rod, times the change.
+/// Adds -dg/d(ln diameter) = -(4 g_bend + 2 g_stretch) of a rod, times `change`.
 void DesignShell::add_diameter_gradient(std::size_t rod, double change,
                                         Eigen::Matrix3Xd& minus_dg) const {
   for (const int k : model_.rods[rod].edges) {
     const ModelEdge& edge = model_.edges[std::size_t(k)];
-    if (edge.EA == 0) continue;  // of a ghost
+    if (edge.EA == 0) continue;  // a ghost edge
     const EdgeGeometry g = geometry_of(state_.x, edge);
     const Eigen::Vector3d pull =
         2 * change * edge.EA * (g.length / edge.rest_length - 1) * g.tangent;
@@ -223,7 +225,7 @@ void DesignShell::add_diameter_gradient(std::size_t rod, double change,
   for (const int k : bends_[rod]) add_bend_gradient(k, -4 * change, minus_dg);
 }
 
-/// A fraction of a bend's gradient, taken away from dg.
+/// Adds `fraction` times the gradient of a bend to minus_dg.
 void DesignShell::add_bend_gradient(int k, double fraction, Eigen::Matrix3Xd& minus_dg) const {
   const ModelBend& bend = model_.bends[std::size_t(k)];
   const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
@@ -243,9 +245,9 @@ void DesignShell::add_bend_gradient(int k, double fraction, Eigen::Matrix3Xd& mi
   minus_dg.col(f.to) += fraction * energy.gradient_f;
 }
 
-/// -dg/dl of each edge of a leg, times its fraction of the leg's change: stretch reduces the pull
-/// on its two nodes by EA |e|/l^2, and every adjacent bend is less stiff by 1/(2 l_v), l_v being
-/// the mean natural length there.
+/// Adds -dg/dl of each edge of a leg, times its fraction of the leg's change: a longer edge reduces
+/// the pull on its two nodes by EA |e|/l^2, and the stiffness of every adjacent bend by the
+/// fraction 1/(2 l_v), l_v being the mean natural length there.
 void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const {
   const Leg& leg = legs_[std::size_t(end)];
   const double fraction = change / double(leg.edges.size());
@@ -316,8 +318,7 @@ double DesignShell::smallest_eigenvalue(const Watch& watch) {
   Eigen::Matrix3Xd weight = Eigen::Matrix3Xd::Zero(3, model_.columns());
   weight.leftCols(length.size()).rowwise() = length.transpose();
   const auto softest = softest_modes(*system_, weight, 1, 0, watch);
-  // who stopped it does not ask
-  return softest ? softest->values[0] : 0;
+  return softest ? softest->values[0] : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace gridshell

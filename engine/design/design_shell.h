@@ -1,4 +1,4 @@
-// The shell on one mesh whose ends are moved, with its sensitivities to them.
+// The shell of a design on one mesh: its ends are changed, with its sensitivities to them.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@
 
 namespace gridshell {
 
-/// How a change of the ends moves the shell, per unit of each change, to first order.
+/// First-order change of the shell with the ends, per unit of each change.
 struct Sensitivity {
-  std::vector<Eigen::Matrix3Xd> x;  ///< of all columns, mm
-  Eigen::MatrixXd leg_force;        ///< ends x changes, N
+  std::vector<Eigen::Matrix3Xd> x;  ///< displacements of all columns, one matrix per change, mm
+  Eigen::MatrixXd leg_force;        ///< change of the leg forces, ends x changes, N
 };
 
 /// An equilibrium g(x, q) = dE/dx = 0 of the bend model and its sensitivity to pins, legs,
@@ -49,13 +49,13 @@ class DesignShell {
   ShellPosition stand() const { return {state_, ends_}; }
   void back_to(const ShellPosition& stand);
 
-  /// dg/dq of changes (one per column of `changes`, over variables with `rates`) times -H^-1; of a
-  /// watch that is cancelled it says nothing.
+  /// -H^-1 dg/dq for every column of `changes`, a combination of variables with `rates`. After a
+  /// cancel the result must not be used.
   Sensitivity sensitivity(const std::vector<DesignVariable>& variables,
                           const std::vector<DesignVariables::Rate>& rates,
                           const Eigen::MatrixXd& changes, const Watch& watch = unwatched);
-  /// Smallest eigenvalue of the Hessian against the rods' length lumped on the nodes, N/mm^2. Of a
-  /// watch that is cancelled it says nothing.
+  /// Smallest eigenvalue of H v = lambda L v, N/mm^2: H is the Hessian, L the length of rod lumped
+  /// at the nodes. 0 if it does not converge or after a cancel.
   double smallest_eigenvalue(const Watch& watch = unwatched);
 
   const RodMesh& mesh() const { return mesh_; }
@@ -76,7 +76,8 @@ class DesignShell {
   void set_legs(const ShellEnds& ends);
   void set_diameters(const ShellEnds& ends);
   void impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const;
-  /// What changes at once: columns, legs (one per end), logarithms of diameters (one per rod).
+  /// A change of the ends: prescribed columns, mm, leg lengths (one per end), mm, and logarithms of
+  /// diameters (one per rod).
   struct Change {
     Eigen::Matrix3Xd prescribed;
     Eigen::VectorXd longer, thicker;
@@ -96,17 +97,17 @@ class DesignShell {
   struct Leg {
     std::vector<int> edges;
     int at_end = -1;           ///< the edge at the edge point
-    std::vector<int> bends;    ///< that one of its edges takes part in
-    int ghost = -1, far = -1;  ///< nodes outside its edge point
+    std::vector<int> bends;    ///< bends with at least one of its edges
+    int ghost = -1, far = -1;  ///< nodes outside its edge point: ghost, far end of a tail
 
-    /// How many of the bend's two edges are among them.
+    /// How many of a bend's two edges belong to the leg.
     int edges_of(const ModelBend& bend) const {
       return int(std::ranges::count(edges, bend.e) + std::ranges::count(edges, bend.f));
     }
   };
   std::vector<Leg> legs_;                ///< one per end
-  std::vector<std::vector<int>> bends_;  ///< of each rod
-  Eigen::VectorXd diameter_;             ///< that the model has, one per rod
+  std::vector<std::vector<int>> bends_;  ///< bends of each rod
+  Eigen::VectorXd diameter_;             ///< current diameters of the model, one per rod, mm
 };
 
 }  // namespace gridshell

@@ -36,7 +36,7 @@ Distances DesignTarget::distances(const Eigen::Matrix3Xd& joints) {
   for (Eigen::Index k = 0; k < joints.cols(); ++k) {
     const Eigen::Vector3d joint = joints.col(k);
     auto at = net_->at(uv_(0, k), uv_(1, k));
-    // where it was found last there is a net
+    // the net exists at the point that was found last
     for (int iteration = 0; at && iteration < most_iterations; ++iteration) {
       const Eigen::Vector3d off = joint - at->position;
       const double c = at->tangent_u.dot(at->tangent_v);
@@ -62,7 +62,7 @@ namespace {
 
 double mean_power(const Eigen::VectorXd& size, double p) { return size.array().pow(p).mean(); }
 
-/// How the distances change with z: 3 joints x changes.
+/// Derivatives of the distance vectors by z, (3 joints) x changes.
 Eigen::MatrixXd distance_rates(const Distances& distances, const Sensitivity& moved) {
   const Eigen::Index joints = distances.vector.cols();
   Eigen::MatrixXd rates(3 * joints, Eigen::Index(moved.x.size()));
@@ -76,8 +76,9 @@ Eigen::MatrixXd distance_rates(const Distances& distances, const Sensitivity& mo
   return rates;
 }
 
-/// With w_k = |r_k|^(p-2) M^(2/p-1)/n, M = mean |r|^p: gradient sum w J^T r, curvature
-/// sum w (J^T J + (p-2) (J^T e)(J^T e)^T) + (2-p) M^(-2/p) gradient gradient^T, e = r/|r|.
+/// Adds the term of the distances. With w_k = |r_k|^(p-2) M^(2/p-1)/n, M = mean |r|^p and e = r/|r|
+/// the gradient is sum w J^T r, the curvature
+/// sum w (J^T J + (p-2) (J^T e)(J^T e)^T) + (2-p) M^(-2/p) gradient gradient^T.
 void add_distances(const Distances& distances, const Sensitivity& moved, double p, Objective& sum) {
   const Eigen::VectorXd size = distances.size();
   const double M = mean_power(size, p), n = double(size.size());
@@ -185,7 +186,8 @@ class Optimiser {
     return step;
   }
 
-  /// Moves the shell to q, or says why not and leaves it where it was.
+  /// Moves the shell to q. If the step is refused, returns the reason and leaves the shell
+  /// unchanged; else an empty text.
   std::string attempt(const Eigen::VectorXd& q, double value, double p) {
     const DesignShell::ShellPosition before = shell_.stand();
     if (auto moved = shell_.move(variables_.ends_at(q), jump_mm_, watch_); !moved)
@@ -203,7 +205,7 @@ class Optimiser {
       return fmt::format("a leg's force of {:.3g} N is above its limit", largest_force());
     const double eigenvalue = shell_.smallest_eigenvalue(watch_);
     if (watch_.cancelled()) return "it was stopped";
-    if (eigenvalue < allowed_)
+    if (!(eigenvalue >= allowed_))
       return fmt::format("the smallest eigenvalue of {:.3g} N/mm^2 is below its limit of {:.3g}",
                          eigenvalue, allowed_);
     eigenvalue_ = eigenvalue;
@@ -216,11 +218,11 @@ class Optimiser {
   OptimiseOptions options_;
   const Watch& watch_;
   double jump_mm_;
-  double eigenvalue_ = 0;  // of the state
+  double eigenvalue_ = 0;  // smallest one of the current state
   double allowed_ = 0, most_force_ = 0;
   double damping_ = 1;
   Sensitivity moved_;
-  bool fresh_ = false;  // moved_ is that of the state
+  bool fresh_ = false;  // whether moved_ belongs to the current state
   Eigen::VectorXd q_;
   std::vector<DesignStep> steps_;
 };
@@ -258,7 +260,7 @@ std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const std::function<void(const DesignStep&)>& seen) {
   Optimiser run(shell, target, variables, options, spacing_mm, watch);
   run.begin();
-  // for the largest distance the objective is less smooth
+  // the first stage has p = 2, as the objective of a large p is less smooth
   for (const Stage& stage : {Stage{2, 0.3, 0.03}, {options.norm, 1, 0.002}}) {
     run.begin_stage(stage);
     while (run.iterations() < options.most_iterations && !watch.cancelled())

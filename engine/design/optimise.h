@@ -1,4 +1,4 @@
-// What a design aims at, and how far the joints are from it.
+// Target and objective of a design, and its optimisation.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,39 +26,41 @@ struct Distances {
   Eigen::VectorXd size() const;
 };
 
+/// The target of a design: the positions of joints on a net, or the net's surface.
 class DesignTarget {
  public:
-  /// For points that belong at (u, v) of a net. Errors: those of the net there.
+  /// The target for joints at (u, v) of a net. Errors: those of the net there.
   static Result<DesignTarget> make(std::shared_ptr<const ChebyshevNet> net, Eigen::Matrix2Xd uv,
                                    preset::Target kind);
 
-  /// The nearest point of a surface is found by Newton's method on the net, from the last one
-  /// found; outside the net its tangent plane replaces the surface.
+  /// Distances of joints (3 x joints, mm). The nearest point of a surface is found by Newton's
+  /// method on the net, from the last one found; outside the net its tangent plane replaces the
+  /// surface.
   Distances distances(const Eigen::Matrix3Xd& joints);
-  /// The nearest points themselves, 3 x joints.
+  /// The nearest points of the target, 3 x joints, mm.
   Eigen::Matrix3Xd nearest(const Eigen::Matrix3Xd& joints);
 
  private:
   std::shared_ptr<const ChebyshevNet> net_;
   preset::Target kind_ = preset::Target::surface;
-  Eigen::Matrix2Xd uv_;      // of the nearest points
-  Eigen::Matrix3Xd places_;  // of the joints on the net
+  Eigen::Matrix2Xd uv_;      // (u, v) of the nearest points
+  Eigen::Matrix3Xd places_;  // positions of the joints on the net, mm
 };
 
-// What a design makes small, with its slope and curvature.
+// The objective of a design, with gradient and curvature.
 
 /// Weights of the terms in addition to the distances: without the forces, legs are compressed until
 /// they buckle.
 struct ObjectiveWeights {
   double moves = 0.03;   ///< mu
   double forces = 0.01;  ///< eta
-  double scale = 1;      ///< of a variable: mm, rad
-  double force_N = 0.1;  ///< of a leg
+  double scale = 1;      ///< unit of a variable: mm, rad
+  double force_N = 0.1;  ///< unit of the force of a leg
 };
 
-/// 1/2 (mean |r|^p)^(2/p) + 1/2 mu mean((q/scale)^2) + 1/2 eta mean((N_leg/force)^2), r the
-/// distances of the joints in mm, q the variables from where they began, by z (q = basis z): value,
-/// gradient, and the curvature that is left when r and N are taken as linear in z.
+/// The objective 1/2 (mean |r|^p)^(2/p) + 1/2 mu mean((q/scale)^2) + 1/2 eta mean((N_leg/force)^2)
+/// and its derivatives by z (q = basis z). r are the distances of the joints, mm, q the changes of
+/// the variables. The curvature is that for r and N linear in z.
 struct Objective {
   double value = 0;
   Eigen::VectorXd gradient;
@@ -70,7 +72,7 @@ double objective_value(const Distances& distances, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& leg_forces, double p,
                        const ObjectiveWeights& weights);
 
-/// `moved`: how joints and leg forces change with z.
+/// The objective with derivatives; `moved`: the sensitivities by z.
 Objective objective(const Distances& distances, const Eigen::VectorXd& q,
                     const Eigen::VectorXd& leg_forces, const Eigen::MatrixXd& basis,
                     const Sensitivity& moved, double p, const ObjectiveWeights& weights);
@@ -79,14 +81,14 @@ Objective objective(const Distances& distances, const Eigen::VectorXd& q,
 
 struct OptimiseOptions {
   double norm = 8;             ///< p of the last stage; the first is 2
-  double move_limit_mm = 5;    ///< of a pin or a leg
+  double move_limit_mm = 5;    ///< largest change of a pin or a leg
   double min_stability = 0.5;  ///< least ratio of the smallest eigenvalue to the initial one
   double max_leg_force_N = 0;  ///< 0: any
   int most_iterations = 25;
   ObjectiveWeights weights;
 };
 
-/// One iteration: what was tried and what came of it.
+/// One iteration of the optimisation.
 struct DesignStep {
   int iteration = 0;
   double norm = 2;
@@ -94,9 +96,9 @@ struct DesignStep {
   double max_mm = 0, mean_mm = 0;  ///< distances of the joints
   double eigenvalue = 0;           ///< N/mm^2
   double largest_move_mm = 0;
-  bool taken = false;
-  std::string refused;  ///< why it was not; empty where it was
-  Eigen::VectorXd q;    ///< the variables after it
+  bool taken = false;   ///< whether the step was accepted
+  std::string refused;  ///< reason if it was not; else empty
+  Eigen::VectorXd q;    ///< variables after the iteration
 };
 
 /// Minimises the objective, with p = 2 first and then the requested norm, by damped steps of the

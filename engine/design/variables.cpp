@@ -39,7 +39,8 @@ std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& places, E
   return to;
 }
 
-/// The rotation or reflection that takes points to others, if one does.
+/// The rotation or reflection that maps `from` to `to` up to a translation and preserves the upward
+/// direction; empty if there is none.
 std::optional<Eigen::Matrix3d> motion_between(const Eigen::Matrix3Xd& from,
                                               const Eigen::Matrix3Xd& to, double near_mm) {
   const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
@@ -53,7 +54,7 @@ std::optional<Eigen::Matrix3d> motion_between(const Eigen::Matrix3Xd& from,
 
 using preset::Vary;
 
-constexpr double per_unit = 0.1;  // of a diameter's logarithm: a tenth weighs as a millimetre does
+constexpr double per_unit = 0.1;  // change of a diameter's logarithm that counts as a millimetre
 
 bool is_pin(Vary kind) {
   switch (kind) {
@@ -94,13 +95,14 @@ std::vector<Eigen::Vector3d> directions_of(Vary kind, const ShellEnds& ends, Eig
   return {across, along.cross(across)};
 }
 
-/// Whether a variable of this kind has an effect at an end; that of a rod belongs to its start.
+/// Whether there is a variable of this kind at an end; the diameter of a rod belongs to its start.
 bool applies(Vary kind, Eigen::Index end, RodEnd hold) {
   if (kind == Vary::diameters) return end % 2 == 0;
   return kind == Vary::directions ? holds_direction(hold) : is_held(hold);
 }
 
-/// The projector on what all symmetries leave as it is: the mean of what they do to variables.
+/// The projector on the changes that all symmetries preserve: the mean of their actions on the
+/// variables.
 Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
                           const std::vector<ShellSymmetry>& symmetries) {
   const Eigen::Index n = Eigen::Index(all.size());
@@ -109,7 +111,7 @@ Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
     for (Eigen::Index k = 0; k < n; ++k) {
       const DesignVariable& from = all[std::size_t(k)];
       const int end = one.to[std::size_t(from.end)];
-      // a direction runs along its rod, whose ends a symmetry may swap
+      // a direction is along its rod, whose ends a symmetry may exchange
       const double sign = from.kind == Vary::directions && end % 2 != from.end % 2 ? -1 : 1;
       const Eigen::Vector3d turned = sign * (one.turn * from.direction);
       for (Eigen::Index j = 0; j < n; ++j) {

@@ -1,4 +1,4 @@
-// The symmetries that a shell has and a design keeps, and what of it is varied.
+// The symmetries of a shell that a design preserves, and the variables of a design.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +17,13 @@ struct ShellSymmetry {
   Eigen::Matrix3d turn;
 };
 
-/// Those of the eight symmetries of the square grid that preserve the footprint, the positions of
+/// Finds which of the eight symmetries of the square grid preserve the footprint, the positions of
 /// ends and joints (3 x joints, mm) and the upward direction; the identity is the first. `near_mm`:
 /// largest distance of equal positions.
 std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
                                          double near_mm);
 
-// What a design changes, as numbers.
+// Variables of a design.
 
 /// One variable at one end: displacement of a pin along `direction` (mm), change of a leg's length
 /// (mm), or rotation of a prescribed direction towards `direction` (the new direction is the old
@@ -32,12 +32,12 @@ std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix
 struct DesignVariable {
   preset::Vary kind = preset::Vary::pins;
   int end = 0;
-  int component = 0;  ///< of those of its kind at its end
+  int component = 0;  ///< number among the variables of its kind at its end
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// All variables of a design. They change together so that the symmetries of the shell stay: q =
-/// basis z, the basis orthonormal, with as many z as the symmetries leave free.
+/// All variables of a design. Their changes preserve the symmetries of the shell: q = basis z with
+/// an orthonormal basis.
 class DesignVariables {
  public:
   /// The variables `vary` at all constrained ends of the scene.
@@ -47,20 +47,21 @@ class DesignVariables {
   const std::vector<DesignVariable>& all() const { return all_; }
   Eigen::Index count() const { return Eigen::Index(all_.size()); }
   const Eigen::MatrixXd& basis() const { return basis_; }
-  /// The ends that q makes of those of the scene.
+  /// The ends of the scene changed by q.
   ShellEnds ends_at(const Eigen::VectorXd& q) const;
-  /// How the ends change with the variables: of each its pin, leg, direction and the logarithm of
-  /// its diameter move by d times these, at q.
+  /// Derivatives by one variable of the pin, the direction, the leg and the logarithm of the
+  /// diameter at its end.
   struct Rate {
     Eigen::Vector3d at, direction;
     double leg, ln_diameter;
   };
   std::vector<Rate> rates_at(const Eigen::VectorXd& q) const;
-  /// q with no pin and no leg further than `most_mm` from where it was, no rod thicker or thinner
-  /// than twice or half.
+  /// q limited so that no pin and no leg changes by more than `most_mm` and no diameter by more
+  /// than a factor of two.
   Eigen::VectorXd limited(const Eigen::VectorXd& q, double most_mm) const;
-  /// Largest move of a pin or a leg, mm, and turn of a direction, degrees.
+  /// Largest change of a pin's position or a leg's length, mm.
   double largest_move_mm(const Eigen::VectorXd& q) const;
+  /// Largest rotation of a prescribed direction, degrees.
   double largest_turn_deg(const Eigen::VectorXd& q) const;
   /// Largest change of a diameter, over the one before.
   double largest_thickening(const Eigen::VectorXd& q) const;

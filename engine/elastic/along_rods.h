@@ -1,4 +1,4 @@
-// How the elements of a model are visited, one by one, whatever is computed of each.
+// Visits to the elements of a model, one by one, and the blocks of the Hessian that they add to.
 #pragma once
 
 #include <tuple>
@@ -22,8 +22,8 @@ inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge
   return geometry_between(x, edge.from, edge.to);
 }
 
-/// The edges of a rod one after another, and every bend with its two edges, that which closes a
-/// ring last: on_edge(k, edge, geometry), on_bend(k, bend, geometry of e, geometry of f).
+/// Visits the edges of a rod in order, and every bend with its two edges, that which closes a ring
+/// last: on_edge(k, edge, geometry), on_bend(k, bend, geometry of e, geometry of f).
 template <class OnEdge, class OnBend>
 inline __attribute__((always_inline)) void along_rod(const Model& model, const Model::Rod& rod,
                                                      const Eigen::Matrix3Xd& x, OnEdge on_edge,
@@ -63,7 +63,8 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
-/// visit(pair) for every energy of two edges but the angles of joints, which may act together
+/// Calls visit(pair) for every energy of two edges except the angles of joints, which may act
+/// together.
 template <class Visit>
 void each_pair(const Model& model, Visit visit) {
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
@@ -72,7 +73,7 @@ void each_pair(const Model& model, Visit visit) {
   });
 }
 
-/// visit(pair, index of its torque among the forces) for every joint with a spring
+/// Calls visit(pair, index of its torque among the forces) for every joint with a spring.
 template <class Visit>
 void each_spring(const Model& model, Visit visit) {
   Eigen::Index place = Eigen::Index(model.edges.size());
@@ -80,8 +81,8 @@ void each_spring(const Model& model, Visit visit) {
     visit(pair, place++);
 }
 
-/// visit(edge, column of the angle's slope by its vector, among an assembly's tangents) for both
-/// edges of such a joint
+/// Calls visit(edge, column) for both edges of a joint with a spring. `column`: where an assembly's
+/// tangents have the derivative of the angle by the edge vector.
 template <class Visit>
 void each_arm(const Model& model, const Pair<JointAngle>& pair, Eigen::Index place, Visit visit) {
   const Eigen::Index first = 2 * place - Eigen::Index(model.edges.size());
@@ -93,7 +94,7 @@ inline Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
   return state.x.col(spring.b) - state.x.col(spring.a);
 }
 
-/// visit(action, factor) for all that acts from outside
+/// Calls visit(action, factor) for all external actions.
 template <class Visit>
 void each_action(const Model& model, const ExternalLoads& outside, Visit visit) {
   for (const NodeAction& action : model.loads) visit(action, outside.load);
@@ -104,9 +105,9 @@ void each_action(const Model& model, const ExternalLoads& outside, Visit visit) 
     for (const NodeAction& action : *outside.field) visit(action, outside.field_factor);
 }
 
-// Where the Hessians of energies of two edges go.
+// Hessians of energies of two edges, added to that of the model.
 
-/// m is added at (a, b) and transposed at (b, a)
+/// Adds m at (a, b) and its transpose at (b, a).
 inline void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, BlockHessian& h) {
   if (a == b)
     h.diagonal[std::size_t(a)].matrix() += m + m.transpose();
@@ -114,7 +115,7 @@ inline void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, Bl
     h.add(slot, m);
 }
 
-/// An edge vector's own stiffness at its two nodes.
+/// Adds the stiffness m of an edge by its own vector.
 inline void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, BlockHessian& h) {
   h.diagonal[std::size_t(edge.from)].matrix() += m;
   h.diagonal[std::size_t(edge.to)].matrix() += m;
@@ -146,7 +147,7 @@ void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatri
   }
 }
 
-/// By the edge vectors alone.
+/// Adds the part of a pair's Hessian by the edge vectors.
 template <class Law>
 void add_vector_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
                         BlockHessian& h) {

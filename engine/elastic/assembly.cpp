@@ -1,5 +1,5 @@
-// Edges and bends run rod by rod, the hot loop next to the factorisation; what else stores energy
-// is added after them, list by list.
+// Edges and bends are assembled rod by rod: after the factorisation this loop takes most of the
+// time. All other energies are added after them, list by list.
 #include "engine/elastic/assembly.h"
 
 #include <cmath>
@@ -58,7 +58,7 @@ inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeome
   sum.stretch += s.value;
   out.force[k] = s.force;
   out.tangents.col(k) = g.tangent;
-  // the edge to a ghost only shows a direction
+  // a ghost edge only prescribes a direction
   if (edge.EA > 0) keep_largest(sum.largest_strain, g.length / edge.rest_length - 1);
 }
 
@@ -75,7 +75,7 @@ inline void add_bend_gradient(const ModelEdge& e, const ModelEdge& f, const Bend
   out.gradient.col(f.to) += bend.gradient_f;
 }
 
-/// H of the edge vectors becomes H of the nodes: e = b - a, f = c - b.
+/// Converts H by the edge vectors to H by the nodes: e = b - a, f = c - b.
 inline void add_bend_hessian(const ModelEdge& e, const ModelEdge& f, BlockSlot second,
                              const BendEnergy& bend, BlockHessian& h) {
   const Block3 &ee = bend.hessian_ee, &ef = bend.hessian_ef, &ff = bend.hessian_ff;
@@ -133,7 +133,8 @@ void add_bar(const ModelBar& bar, const State& state, const Stiffness* how, Asse
   out.hessian.add(bar.slot, -m);
 }
 
-/// d(y x z) = [y] dz - [z] dy, likewise round; nodes of a face need not be neighbours on a rod.
+/// d(y x z) = [y] dz - [z] dy, and cyclically. Nodes of a face need not be neighbours on a rod, so
+/// the blocks are outside the pattern.
 void add_action_hessian(const NodeAction& action, double factor, const Eigen::Matrix3Xd& x,
                         BlockHessian& h) {
   h.diagonal[std::size_t(action.node)].matrix().diagonal() += factor * action.stiffness;
@@ -150,7 +151,7 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
   add(second, third, x.col(action.node));
 }
 
-/// What stores energy in addition to edges and bends.
+/// Adds all energies except those of edges, bends and springs of joints.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 const Stiffness* stiffness, Assembly& out) {
   const bool with_hessian = stiffness != nullptr;
@@ -178,8 +179,8 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     if (action.pressure != 0) {
       action.add_gradient(factor, state.x, out.gradient);
     } else {
-      // as add_gradient(), but rounded once per product, as this file is compiled: states keep
-      // their bits
+      // as add_gradient(), but with one rounding per product, as this file is compiled, so that
+      // results are equal to the last bit
       const Eigen::Vector3d off = state.x.col(action.node) - action.anchor;
       const Eigen::Vector3d slope = action.stiffness.cwiseProduct(off) - action.force;
       out.gradient.col(action.node) += factor * slope;
@@ -195,7 +196,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   });
 }
 
-/// Energies, forces and gradient of a rod, the pull of edge k being pull_of(k, its geometry).
+/// Adds energies, forces and gradient of a rod; pull_of(k, geometry) is the pull of edge k.
 template <class Pull>
 inline __attribute__((always_inline)) void add_forces(const Model& model, const Model::Rod& rod,
                                                       const Eigen::Matrix3Xd& x, RodSum& into,
@@ -256,7 +257,7 @@ void rod_hessian(const Model& model, const Model::Rod& rod, RodSum& into, const 
         across -= stiffness;
         h.add(edge.slot, across);
       },
-      // a call would be none of the copy for one instruction set
+      // inlined, as a function that is called would not be compiled for each instruction set
       [&](int, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f)
           __attribute__((always_inline)) {
             const ModelEdge &edge_e = model.edges[std::size_t(bend.e)],
@@ -269,14 +270,14 @@ void rod_hessian(const Model& model, const Model::Rod& rod, RodSum& into, const 
   into = sum;
 }
 
-/// Whether it is worth it to share the rods: others wait longer than they work on a small model.
+/// Whether the model is large enough to distribute its rods over threads.
 bool worth_sharing(const Model& model) {
   constexpr std::size_t edges = 10000;  // some 0.7 ms
   return model.edges.size() >= edges;
 }
 
-/// All rods, of_rod(rod, sum), and what else there is. Of a large model the rods of a wave go to
-/// whoever is free, each with a sum of its own.
+/// Assembles all rods by of_rod(rod, sum), then everything else. In a large model the rods of a
+/// wave are distributed over threads, each with its own sum.
 template <class OfRod>
 void assemble(const Model& model, const State& state, const ExternalLoads& outside,
               const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out, Team* team,

@@ -12,8 +12,8 @@
 
 namespace gridshell {
 
-/// A block's index: that of its pair, times two, plus one where the block is the pair's transposed.
-/// Below zero: there is no such block.
+/// Index of a block: twice the index of its pair of columns, plus one if the block is the transpose
+/// of the stored one. Below zero: there is no such block.
 using BlockSlot = int;
 
 /// The pairs of columns between which there is a block, each once.
@@ -33,18 +33,18 @@ class BlockPattern {
   std::vector<std::vector<std::pair<int, int>>> pairs_of_;  // per smaller column: larger, index
 };
 
-/// Blocks on the diagonal (one per column), off the diagonal (one per pair of the pattern), and
-/// outside the pattern between edges that come near each other and between nodes of a face under
-/// pressure, some of them zero, several at the same pair; and a matrix of rank one that joins all
-/// columns. N/mm.
+/// The Hessian, N/mm: blocks on the diagonal (one per column), off the diagonal (one per pair of
+/// the pattern), and outside the pattern; and a matrix of rank one that connects all columns.
 struct BlockHessian {
+  /// A block outside the pattern, between edges that come near each other or between nodes of a
+  /// face under pressure. It may be zero; several may belong to one pair of columns.
   struct Beyond {
     int row = 0, column = 0;
     Block3 block;
   };
   std::vector<Block3> diagonal, pair;
   std::vector<Beyond> beyond;
-  Eigen::Matrix3Xd rank_one{};  ///< c over all columns, of c c^T in addition; empty: none
+  Eigen::Matrix3Xd rank_one{};  ///< c, 3 x columns: c c^T is added; empty: none
 
   void reset(std::size_t columns, std::size_t pairs, Team* team = nullptr) {
     diagonal.assign(columns, {});

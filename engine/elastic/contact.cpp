@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double parabola_from = 0.05;      // x of the barrier
-constexpr double parallel_fraction = 0.05;  // of the range of d^2: how far off the distance may be
+constexpr double parallel_fraction = 0.05;  // error of the squared distance over the range of d^2
 
 /// b and its first two derivatives.
 std::array<double, 3> log_barrier(double x) {
@@ -23,7 +23,7 @@ std::array<double, 3> log_barrier(double x) {
   return {-y * y * log, -2 * y * log - y * y / x, -2 * log - 4 * y / x + y * y / (x * x)};
 }
 
-/// For every node, the first node at its position (of edge points, in the flat).
+/// For every node, the first node at the same position (for edge points: in the flat).
 std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
   std::vector<int> place(std::size_t(mesh.nodes()));
   for (int k = 0; k < mesh.nodes(); ++k) place[std::size_t(k)] = k;
@@ -43,9 +43,9 @@ std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radiu
   return place;
 }
 
-/// Two edges p + s u and q + t v near each other, as each_contact() says.
+/// Two edges p + s u and q + t v near each other, with the distance of each_contact().
 struct NearEdges {
-  Vector3d u, v, apart;         // apart: of their begins
+  Vector3d u, v, apart;         // apart: p - q
   double mollify_e, mollify_f;  // m
   double s = 0, t = 0, distance2 = 0;
   bool inside_s = false, inside_t = false;
@@ -66,7 +66,7 @@ struct NearEdges {
     const Eigen::Vector2d z = A.inverse() * b;
     if (z.minCoeff() > 0 && z.maxCoeff() < 1) return take(z[0], z[1]);
     distance2 = std::numeric_limits<double>::infinity();
-    // of a convex function that is least outside: on one of the four sides
+    // the function is convex: if its minimum is outside the square, the least value is on a side
     for (const double side : {0.0, 1.0}) {
       const double other_t = std::clamp((b[1] - A(0, 1) * side) / A(1, 1), 0.0, 1.0),
                    other_s = std::clamp((b[0] - A(0, 1) * side) / A(0, 0), 0.0, 1.0);
@@ -80,8 +80,9 @@ struct NearEdges {
   }
 };
 
-/// Gradient and Hessian of d^2, by the ends of both edges: with r = p(s) - q(t) and the weights w
-/// of the ends in it, 2 w_i r, and where s and t follow, 2 w_i w_j I less what they yield.
+/// Gradient and Hessian of d^2 by the ends of both edges. With r = p(s) - q(t) and the weights w of
+/// the ends in it they are 2 w_i r and 2 w_i w_j I, less a term for s and t, which change with the
+/// ends unless they are at 0 or 1.
 void differentiate(const NearEdges& near, Eigen::Matrix<double, 12, 1>& gradient,
                    Eigen::Matrix<double, 12, 12>& hessian) {
   const double w[4] = {1 - near.s, near.s, near.t - 1, -near.t};
@@ -242,10 +243,10 @@ double clear_fraction(const Model& model, const Eigen::Matrix3Xd& x, const Eigen
       return std::sqrt(nearest_points(at(e.from), at(e.to), at(f.from), at(f.to)).distance2);
     };
     double fraction = 0, d = distance(0);
-    // many steps that each halve the distance would lead through in the end
+    // many moves that each halve the distance would pass through in the end
     const double radii = thinness * contact.radii(one, other), end = 0.25 * radii;
     const double least = d > end ? std::max(0.5 * std::min(d, radii), end) : 0.999 * d;
-    const int most_steps = d > end ? 200 : 5000;  // those of the nearest are small
+    const int most_steps = d > end ? 200 : 5000;  // steps of the nearest edges are small
     for (int k = 0; k < most_steps && fraction < clear; ++k) {
       if (fraction > 0 && d - least <= 1e-3 * least) break;
       fraction += (d - least) / fastest;

@@ -1,4 +1,4 @@
-// Stretching of an edge.
+// Stretching of an edge, and bending of a round, straight rod between two edges.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,9 @@
 
 namespace gridshell {
 
-/// E = EA/2 (|e|/l - 1)^2 l, with axial force N = dE/d|e| = EA (|e|/l - 1). Along the tangent t the
-/// Hessian is EA/l t t^T + N/|e| (I - t t^T): material and geometric stiffness.
+/// E = EA/2 (|e|/l - 1)^2 l of an edge vector e, with axial force N = dE/d|e| = EA (|e|/l - 1).
+/// With the tangent t the Hessian is EA/l t t^T + N/|e| (I - t t^T): material and geometric
+/// stiffness.
 struct StretchEnergy {
   double value = 0;
   double force = 0;  ///< N, positive in tension
@@ -62,7 +63,7 @@ inline void bend_hessian(double stiffness, const EdgeGeometry& e, const EdgeGeom
   out.gradient_e = by_c * p;
   out.gradient_f = by_c * q;
 
-  // one outer product each: fold the rank-one terms that share a factor
+  // terms of rank one with a common factor are combined into one outer product
   Column along_p, along_q, along_e, along_f;
   load(p, along_p);
   load(q, along_q);

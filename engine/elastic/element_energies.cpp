@@ -79,7 +79,7 @@ HalfwayFrame frame_of(const PairGeometry& at, const MaterialBend& bend) {
                        at.angle_e + bend.fraction * at.twist() + bend.axis);
 }
 
-/// s of EndBending, and how it grows with c.
+/// s of EndBending, and its derivatives by c = cos phi.
 struct EndScale {
   double s, by_c, by_cc;
 
@@ -91,12 +91,12 @@ struct EndScale {
   }
 };
 
-/// By how much the curvature binormal counts.
+/// Factor on the curvature binormal: s at an end, else 1.
 double scale_of(const MaterialBend& bend, const CurvatureBinormal& b) {
   return bend.at_end() ? EndScale(b.chi - 1).s : 1;
 }
 
-/// Gradient (increments) and Hessian of chi = 1 + t.s
+/// Gradient (in increments) of chi = 1 + t.s; chi_curvature() is its Hessian.
 PairVector chi_slope(const BinormalSlopes& b) {
   PairVector slope = PairVector::Zero();
   slope.head<3>() = b.P * b.s;
@@ -115,7 +115,7 @@ PairMatrix chi_curvature(const BinormalSlopes& b) {
   return curvature;
 }
 
-/// Y.kb'' for a fixed Y normal to t, as a symmetric matrix (increments), added to `out`.
+/// Adds Y.kb'' for a fixed Y normal to t, as a symmetric matrix (in increments), to `out`.
 void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out) {
   const double k = Y.dot(b.kb), i = 1 / b.chi;
   const Eigen::Vector3d yp = b.by_p.transpose() * Y, yq = b.by_q.transpose() * Y;
@@ -133,14 +133,13 @@ void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, P
   out.block<3, 3>(3, 0) += pq.transpose();
 }
 
-/// Twist tau = theta_f - theta_e + m_ref. With the frames carried along straight lines, by
-/// increments p = de/|e|, q = df/|f|:
+/// Adds weight * tau'' (in increments) of the twist tau = theta_f - theta_e + m_ref. With the
+/// frames carried along straight lines, by increments p = de/|e|, q = df/|f|:
 ///   tau'  = kb.(p + q)/2 + theta_f' - theta_e'.
-/// The printed second derivatives of m_ref are the derivative of kb/(2|e|); that is not symmetric,
-/// as carrying a frame round a loop turns it. The symmetric part is the Hessian: with m = (t +
-/// s)/chi and sym(a, b) = (a b^T + b a^T)/2,
+/// The second derivatives of m_ref in the literature are the derivative of kb/(2|e|), which is not
+/// symmetric, as a frame that is carried round a loop is turned. The symmetric part is the Hessian.
+/// With m = (t + s)/chi and sym(a, b) = (a b^T + b a^T)/2,
 ///   H_pp = -sym(t + m, kb)/2, H_qq = -sym(s + m, kb)/2, H_pq = ([m]x - sym(m, kb))/2.
-/// out += weight * tau'' (increments).
 void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out) {
   const Eigen::Vector3d mean = (b.t + b.s) / b.chi;
   const auto add_own = [&](int at, const Eigen::Vector3d& a) {

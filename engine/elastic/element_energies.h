@@ -23,7 +23,7 @@ struct NodeAction {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();     ///< a, mm
   Term term = Term::load;
   double pressure = 0;                ///< p, N/mm^2
-  std::array<int, 2> beside{-1, -1};  ///< the second -1: the anchor
+  std::array<int, 2> beside{-1, -1};  ///< nodes at y and z; the second -1: z is the anchor
 
   NodeAction& operator*=(double factor);
   bool is_none() const { return force.isZero(0) && stiffness.isZero(0) && pressure == 0; }
@@ -37,7 +37,8 @@ struct NodeAction {
 // Two nodes connected by a spring: crossing rods, each with a node of its own at the joint, or
 // a support and the rod's end or joint that is connected to it.
 
-/// E = 1/2 sum over x, y, z of k (x_b - x_a)^2 of nodes a and b: its natural length is zero.
+/// A spring of natural length zero between nodes a and b: E = 1/2 sum over x, y, z of k (x_b -
+/// x_a)^2.
 struct NodeSpring {
   int a = 0, b = 0;
   Eigen::Vector3d stiffness{0, 0, 0};  ///< k along x, y, z, N/mm
@@ -56,7 +57,7 @@ struct NodeBar {
   double rest_length = 0;  ///< l, mm
   double EA = 0;           ///< N
   bool cable = false;
-  static constexpr double taking_up = 1e-5;  ///< w
+  static constexpr double taking_up = 1e-5;  ///< w, strain over which a cable becomes taut
 
   double strain(double length) const { return length / rest_length - 1; }
   double value(double strain) const;
@@ -64,8 +65,8 @@ struct NodeBar {
   double stiffness(double strain) const;  ///< change of the force with the strain, N
 };
 
-// Common to all energies of two edges e and f: their eight local unknowns, and the curvature
-// binormal with its derivatives.
+// All energies of two edges e and f have eight local unknowns, and use the curvature binormal and
+// its derivatives.
 
 /// Direction and length of an edge.
 struct EdgeGeometry {
@@ -77,8 +78,8 @@ struct EdgeGeometry {
 struct PairGeometry {
   EdgeGeometry e, f;
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
-  Eigen::Vector3d director_e, director_f;  ///< of their reference frames
-  double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
+  Eigen::Vector3d director_e, director_f;  ///< first directors of their reference frames
+  double reference_twist = 0;              ///< m_ref from e to f, if they are consecutive
   double opening = 0;  ///< factor of the joint actuation, times JointAngle::opening
 
   /// tau = theta_f - theta_e + m_ref
@@ -94,11 +95,12 @@ using PairMatrix = Eigen::Matrix<double, 8, 8>;
 struct PairEnergy {
   PairVector gradient = PairVector::Zero();
   PairMatrix hessian = PairMatrix::Zero();
-  bool with_hessian = true;  ///< else that stays zero
+  bool with_hessian = true;  ///< else the Hessian is not computed
 
   PairEnergy& operator+=(const PairEnergy& other);
 };
 
+/// [v]x, with [v]x w = v x w.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
 /// (a b^T + b a^T)/2
@@ -113,7 +115,7 @@ struct CurvatureBinormal {
   double chi = 2;
 };
 
-/// Its derivative by the increments p = de/|e|, q = df/|f|:
+/// The curvature binormal and its derivatives by the increments p = de/|e|, q = df/|f|:
 /// by_p = -(2 [s]x + kb s^T) (I - t t^T)/chi, by_q = (2 [t]x - kb t^T) (I - s s^T)/chi.
 struct BinormalSlopes : CurvatureBinormal {
   Eigen::Matrix3d P, Q;  ///< I - t t^T, I - s s^T
@@ -135,10 +137,11 @@ void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeom
 
 // Twisting of a rod at a node between two edges [Bergou 2008, 2010].
 
-/// E = stiffness/2 (tau - tau_0)^2, `stiffness` = GJ/l (mJ), `excess` = tau - tau_0; in increments.
+/// Adds gradient and Hessian, in increments, of E = stiffness/2 (tau - tau_0)^2; `stiffness`: GJ/l
+/// (mJ), `excess`: tau - tau_0.
 void add_twist(double stiffness, double excess, const CurvatureBinormal& b, PairEnergy& out);
 
-/// Torsion between two edges that follow one another on a rod.
+/// Torsion between two consecutive edges of a rod.
 struct Torsion {
   static constexpr Term term = Term::twist;
   double stiffness = 0;  ///< GJ/l, mJ
@@ -151,18 +154,19 @@ struct Torsion {
 
 // Bending of a rod with principal axes and a natural curvature, at a node between two edges.
 
-/// E = 1/2 (w - w_0)^T diag(EI1, EI2)/l (w - w_0), w the curvature binormal's components in the
-/// material frame in the middle between those of e and f: e's frame turned by half the twist,
+/// E = 1/2 (w - w_0)^T diag(EI1, EI2)/l (w - w_0). w are the components of the curvature binormal
+/// in the material frame in the middle between those of e and f, e's frame turned by half the
+/// twist:
 ///   w_1 + i w_2 = kb.(m1 + i m2)_e exp(-i tau/2).
-/// [Bergou 2008] averages the energies of both frames, [Bergou 2010] the frames; the middle frame
-/// keeps a round rod's energy free of its twist, whatever that is, and lets a rod with curvature
-/// and natural twist be a helix without energy.
-/// At an end that prescribes its direction w is s times as much (EndBending), in the frame of the
-/// ghost where the end prescribes the spin, else in that of the edge next to it.
+/// [Bergou 2008] averages the energies of both frames, [Bergou 2010] the frames. With the middle
+/// frame the energy of a round rod does not depend on its twist, and a rod with natural curvature
+/// and twist is a helix without energy. At an end that prescribes its direction w is multiplied by
+/// s (EndBending). Its frame is that of the ghost if the end prescribes the spin, else that of the
+/// edge next to it.
 struct MaterialBend {
   Eigen::Vector2d stiffness;  ///< EI1/l, EI2/l (mJ)
   Eigen::Vector2d rest;       ///< w_0 = l * natural curvature
-  double fraction = 0.5;      ///< of the twist, from e on, where the frame is; at an end 0 or 1
+  double fraction = 0.5;      ///< of the twist by which e's frame is turned; at an end 0 or 1
   double axis = 0;            ///< from m1 to the first axis of w, about the rod, rad
   double corner = 1;          ///< cos of half the angle by which a rod cut with a corner turns
 
@@ -171,18 +175,19 @@ struct MaterialBend {
   Eigen::Vector2d bent(const Eigen::Vector2d& excess) const;
 };
 
-/// A rod cut with a corner, between two edges that are straight without load and meet at an angle
-/// 2h there. Half of each edge bends and twists about its own axes, and both halves in series are
-/// the compliance of the node. With n the corner's axis, u = (t + s)/|t + s|, v = n x u, rotations
-/// psi of f from the unloaded shape change the measures by
+/// Bending and torsion at the natural corner of a rod, between two edges that are straight without
+/// load and meet at an angle 2h. Half of each edge bends and twists about its own axes; the
+/// compliance of the node is that of both halves in series. With the corner's axis n, u = (t + s)/
+/// |t + s| and v = n x u, rotations psi of f from the unloaded shape change the measures by
 ///   w_1' = psi_n/cos^2 h, w_2' = -psi_v/cos h, tau' = psi_u/cos h,
-/// as w_1 = 2 tan h; so 2 tan h with the stiffness EI/l of a straight rod would be 1/cos^4 h too
-/// stiff in the corner's plane. To first order in psi, which is one in the edge length:
-///   psi_n: l/EI_n,
-///   psi_v: sum over both halves of l_k/2 (cos^2 h/EI_m + sin^2 h/GJ), psi_u: cos and sin
-///   exchanged, both:  (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which moves `fraction`.
-/// EI_n, EI_m: about n and across it; that a section with two stiffnesses which lies askew to the
-/// corner couples them is left out.
+/// since w_1 = 2 tan h. (The stiffness EI/l of a straight rod would be too large by 1/cos^4 h in
+/// the corner's plane.) The compliances, to first order in psi and hence in the edge length:
+///   psi_n:           l/EI_n;
+///   psi_v:           sum over both halves of l_k/2 (cos^2 h/EI_m + sin^2 h/GJ);
+///   psi_u:           the same with cos and sin exchanged;
+///   psi_u and psi_v: (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which changes `fraction`.
+/// EI_n and EI_m are the stiffnesses about n and perpendicular to it. Their coupling is neglected
+/// for a section with two stiffnesses whose axes are not along n.
 struct CornerLaw {
   MaterialBend bend;
   double torsion = 0;  ///< mJ
@@ -192,7 +197,7 @@ struct CornerLaw {
             const Eigen::Vector2d& turn);
 };
 
-/// mu: columns m1, m2 of e turned by half the twist, in 3D.
+/// mu: its columns are m1 and m2 of e turned by half the twist.
 using HalfwayFrame = Eigen::Matrix<double, 3, 2>;
 
 /// The middle frame: e's reference director turned by its angle + fraction * tau about e's tangent.
@@ -206,8 +211,8 @@ HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d
 double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
                          PairEnergy& out);
 
-/// Bending of a section with axes, or of a rod with natural curvature, between two edges that
-/// follow one another.
+/// Bending of a section with two stiffnesses, or of a rod with natural curvature, between two
+/// consecutive edges.
 struct SectionBending {
   static constexpr Term term = Term::bend;
   MaterialBend bend;
@@ -219,10 +224,11 @@ struct SectionBending {
 };
 
 /// Bending of a round rod between the direction that its end prescribes (a ghost edge) and its
-/// first edge, half an edge long. Of the edge and its mirror image past the end, which turn by 2
-/// phi, it is one half, (EI/2l) tan^2 phi, l = |e|/2: so what is left out goes with even powers of
-/// the edge length, as inside a rod. Without the pole at 90 degrees, and the same up to phi^6:
-///   E = 4k (1 - c)/(1 + c)^3 = (EI/2l) |2 kb/chi|^2, k = 2EI/l, c = cos phi.
+/// first edge, over half the edge, l = |e|/2. It is half the energy of the edge and its mirror
+/// image past the end, between which the angle is 2 phi: (EI/2l) tan^2 phi. Its error has even
+/// powers of the edge length, as inside a rod. The law used agrees with it up to phi^6 and has no
+/// pole at 90 degrees:
+///   E = k (1 - c)/(1 + c) s^2 = (EI/2l) |s kb|^2, s = (3 + c^2)/(1 + c)^2, k = 2EI/l, c = cos phi.
 struct EndBending {
   static constexpr Term term = Term::bend;
   double stiffness = 0;  ///< k, mJ
@@ -251,22 +257,22 @@ struct JointAngle {
   double weight = 0;
 
   double excess(const PairGeometry& at) const;
-  /// The angle by edge vectors.
+  /// First and second derivatives of the angle by the edge vectors.
   PairEnergy slopes(const PairGeometry& at, bool with_hessian) const;
 
  private:
   double sign(const PairGeometry& at) const;
 };
 
-// The spin of a rod at a joint that passes twist: the angle between its director and the joint's
+// The spin of a rod at a joint that transmits twist: the angle between its director and the joint's
 // normal.
 
-/// The spin phi of the first edge of a pair, E = k/2 phi^2. With the complex director d = d1 + i d2
-/// and z = d/(s.d), alpha = Im log(s.d), and d carried in time d(t') = d - (d.t')/(1 + t.t') (t +
-/// t'),
+/// Energy of the spin phi of the first edge of a pair: E = k/2 phi^2. Its derivatives follow from
+/// those of alpha = Im log(s.d), with the complex director d = d1 + i d2, which is carried in time
+/// by d(t') = d - (d.t')/(1 + t.t') (t + t'), and z = d/(s.d):
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
-/// p = de/|e|, q = df/|f|.
+/// where p = de/|e|, q = df/|f|.
 struct JointSpin {
   static constexpr Term term = Term::joint;
   double stiffness = 0;  ///< k, N mm/rad
@@ -275,7 +281,7 @@ struct JointSpin {
   double excess(const PairGeometry& at) const;
   double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
-  /// phi by edge vectors and angles.
+  /// First and second derivatives of phi by edge vectors and angles.
   static PairEnergy slopes(const PairGeometry& at, bool with_hessian);
 };
 

@@ -1,5 +1,5 @@
-// What joints store, and how what acts on nodes and angles that follow others
-// is carried over to the joints' own unknowns.
+// Energies of joints, and the transfer of gradients and Hessians from nodes and angles that follow
+// others to the joints' own unknowns.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace gridshell {
 namespace {
 
 /// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
-/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
-/// of e; the normal is side * t x s, `side` +1 or -1.
+/// the rod's director m1. alpha is the angle of the other rod's tangent s in the reference frame
+/// d1, d2 of e; the normal is side * t x s, `side` +1 or -1.
 double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
                   const EdgeGeometry& f) {
   const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
@@ -22,7 +22,7 @@ double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Ve
   return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
 }
 
-/// f = u.y, u = w/|w|, and its derivatives: by y u, by both (I - u u^T)/|w|.
+/// f = u.y, u = w/|w|, and its derivatives by w and y: u by y, (I - u u^T)/|w| by both.
 struct UnitDot {
   double value;
   Eigen::Vector3d unit, by_w;
@@ -36,8 +36,8 @@ struct UnitDot {
   }
 };
 
-/// What a link stores by d = x_b - x_a and the edge vectors u, v of the two rods:
-/// E = k/2 (d^2 + e^2) - k e n.d, n = u x v/|u x v|.
+/// Energy of a link, with its derivatives by d = x_b - x_a and the edge vectors u, v of the two
+/// rods: E = k/2 (d^2 + e^2) - k e n.d, n = u x v/|u x v|.
 struct LinkEnergy {
   double value;
   Eigen::Matrix<double, 9, 1> slope;
@@ -75,21 +75,22 @@ double spin_energy(const ModelHinge& hinge, const Model& model, const State& sta
   return 0.5 * hinge.stiffness * spin * spin;
 }
 
-/// Row `row` of a block of the pattern, (followers' column, another).
+/// Row `row` of a block of the pattern whose row is the following column.
 Eigen::RowVector3d row_of(const BlockHessian& h, BlockSlot slot, int row) {
   const auto block = h.pair[std::size_t(slot >> 1)].matrix();
   return slot & 1 ? Eigen::RowVector3d(block.col(row).transpose()) : block.row(row);
 }
 
-/// The angle of a hinged edge in its carried frame is phi + alpha(e, f), alpha that of the joint's
-/// normal: with a = alpha' the rows of the angle count a times for every node, its moment alpha''.
+/// Transfers gradient and Hessian by the angle of a hinged edge to the nodes. In its carried frame
+/// the angle is phi + alpha(e, f), alpha being that of the joint's normal: the rows of the angle
+/// are added alpha' times for every node, its moment alpha'' times.
 void reduce(const ModelHinge& hinge, const Model& model, const State& state, bool with_hessian,
             Assembly& out) {
   const auto& [pair, other_half, stiffness, blocks] = hinge;
   const PairEnergy phi = JointSpin::slopes(pair_geometry(model, state, pair), with_hessian);
   const int place = model.spin[std::size_t(pair.e)], row = place % 3;
   const double length = model.spin_length, moment = out.gradient.data()[place];
-  std::array<Eigen::Vector3d, 4> by{};  // of the angle's unknown, by every node
+  std::array<Eigen::Vector3d, 4> by{};  // derivatives of the angle's unknown by each node
   for (std::size_t k = 0; k < blocks.leading.size(); ++k) {
     by[k].setZero();
     for (const auto& [edge, at] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
@@ -116,7 +117,8 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
   own(row, row) += stiffness / (length * length);
 }
 
-/// H_cj += 2 H_sj, H_mj -= H_sj, and twice so on the diagonal.
+/// Transfers the blocks of a following node s to the joint c and the first node m: H_cj += 2 H_sj,
+/// H_mj -= H_sj, and on the diagonal both times.
 void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
   const auto& [node, centre, first, blocks] = one;
   for (const auto& [column, slot, slots] : blocks.beside) {
@@ -135,7 +137,7 @@ void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
   h.diagonal[std::size_t(node)] = {};
 }
 
-/// Blocks outside the pattern, of nodes that follow.
+/// Transfers the blocks outside the pattern of nodes that follow others.
 void reduce_beyond(const Model& model, BlockHessian& h) {
   const auto leading = [&](int column) {
     std::vector<std::pair<int, double>> parts{{column, 1}};
@@ -210,7 +212,7 @@ PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
   const Complex gp = -c * z, gq = Q * z;
   const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
 
-  PairVector slope = PairVector::Zero();  // of phi
+  PairVector slope = PairVector::Zero();  // gradient of phi
   slope.head<3>() = -gp.imag();
   slope.segment<3>(3) = -gq.imag();
   slope[6] = 1;
@@ -219,7 +221,7 @@ PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
     scale_to_edges(at.e.length, at.f.length, phi);
     return phi;
   }
-  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
+  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // Hessian of alpha
   const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
     return (a * b.transpose()).imag();
   };
@@ -305,7 +307,7 @@ void add_links(const Model& model, const State& state, bool with_hessian, Assemb
   for (const ModelLink& link : model.links) {
     const LinkEnergy energy = energy_of(link, model, state.x);
     out.energies[Term::joint] += energy.value;
-    // how much a node is of d, u and v
+    // coefficients of a node in d, u and v
     const std::array<int, 4> nodes = nodes_of(link, model);
     const auto parts = [&](std::size_t k) {
       const double side = k % 2 == 0 ? -1 : 1;

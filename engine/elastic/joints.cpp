@@ -1,4 +1,4 @@
-// How rods that cross are connected: what a joint adds to a model, and what it bears.
+// Joints of rods that cross: what they add to a model, bolts, and torques.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
@@ -12,8 +12,8 @@
 namespace gridshell {
 namespace {
 
-/// The halves of a rod's edge that is centred on the joint at `node`; the second is -1 where the
-/// rod has one edge there only.
+/// The two halves of a rod's edge that is centred on the joint at `node`; the second is -1 if the
+/// rod has only one edge there.
 std::pair<int, int> halves_at(const Model& model, int rod, int node) {
   const std::vector<int> edges = edges_beside(model, rod, node);
   return {edges.front(), edges.size() > 1 ? edges.back() : -1};
@@ -144,7 +144,7 @@ std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const
   const Eigen::VectorXd of_springs = spring_torques(model, spring_excess(model, state, opening));
   each_spring(model, [&](const auto& pair, Eigen::Index index) {
     double& torque = torques[std::size_t(pair.law.joint)];
-    // the bolt's spring comes after that of the joint's own law, which it replaces
+    // the bolt's spring is after that of the joint's own law: only the last counts
     if (bolts_alone) torque = 0;
     torque -= of_springs[index - Eigen::Index(model.edges.size())];
   });

@@ -12,15 +12,16 @@
 namespace gridshell {
 namespace {
 
-/// visit(k, m, fraction) for every two of the rods at a joint, which have equal fractions: all of
-/// them together as much as one rod with each of the others
+/// Calls visit(k, m, fraction) for every two of the rods at a joint. The fractions are equal, and
+/// their sum is the number of rods less one: for two rods 1.
 template <class Visit>
 void each_two(std::size_t rods, Visit visit) {
   for (std::size_t k = 0; k < rods; ++k)
     for (std::size_t m = k + 1; m < rods; ++m) visit(k, m, 2.0 / double(rods));
 }
 
-/// where two of a joint's rods cross; with spring joints all but the first have nodes of their own
+/// The crossing of two of a joint's rods. With spring joints all rods but the first have the
+/// joint's second node.
 Crossing crossing(const RodMesh& mesh, const std::vector<RodAt>& rods, int joint, bool springs,
                   std::size_t k, std::size_t m) {
   const auto node = [&](std::size_t rod) {
@@ -33,7 +34,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// +1: the normal as drawn is that from the direction of the first rod to that of the second
+/// +1 if the direction of the first rod x that of the second is along the normal, else -1.
 int side_of(const RodMesh& mesh, const RodAt& a, const RodAt& b, const Eigen::Vector3d& normal) {
   return direction_at(mesh, a).cross(direction_at(mesh, b)).dot(normal) < 0 ? -1 : 1;
 }
@@ -47,9 +48,9 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
   }
 }
 
-/// The largest stiffness of a law, N mm/rad: k edges per segment times 20 of what an edge of each
-/// rod has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
-/// second order.
+/// The largest stiffness of a law, N mm/rad: 20 times the edges per segment times the sum of the
+/// stiffnesses of one edge of each rod, `of` over its length. The compliance of a joint that should
+/// be rigid is then below the error of the mesh, and of second order as well.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
   double sum = 0;

@@ -10,7 +10,7 @@
 
 namespace gridshell {
 
-/// Where a node is drawn, mm; a joint's second one too.
+/// Position of a node as drawn, mm; also of the second node of a joint.
 Eigen::Vector3d drawn_place(const RodMesh& mesh, int node);
 /// Unit vector between two nodes as drawn.
 Eigen::Vector3d drawn_direction(const RodMesh& mesh, int from, int to);
@@ -21,18 +21,19 @@ struct RodAt {
 };
 using Crossings = std::vector<std::vector<RodAt>>;
 
-/// The rods of every joint in order: of a grid the u rod and the v rod.
+/// The rods of every joint in order; in a grid the u rod, then the v rod.
 Crossings crossings_of(const RodMesh& mesh);
 
-/// How a rod runs through one of its nodes as drawn, unit.
+/// Unit direction of a rod at one of its nodes as drawn.
 Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of);
 
-/// Unit normals of the joints as drawn: up in the flat, in space across the rods there, all of a
-/// piece to one side, the upper one of the whole; zero where no two rods cross.
+/// Unit normals of the joints as drawn. In the flat they point up; in space they are perpendicular
+/// to the rods, and those of a connected piece point to one side, on average up. Zero where no two
+/// rods cross.
 std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& crossings);
 
-/// Adds the laws of every two of the rods of every joint, those of bolts too, and the bolts between
-/// axes that lie apart. Errors (bad_input): a law at a joint without centred edges.
+/// Adds the laws of every joint, for every two of its rods, those of its bolts, and the links of
+/// eccentric joints. Errors (bad_input): a law at a joint without centred edges.
 Result<void> add_joint_laws(const RodMesh& mesh, const ShellRods& shell, const Crossings& crossings,
                             const std::vector<Eigen::Vector3d>& normals, Model& model);
 

@@ -38,7 +38,7 @@ Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rod_model
   return {};
 }
 
-/// Rods into a model, one after the other.
+/// Builds a model from rods, one after the other.
 class Builder {
  public:
   Builder(int nodes, RodModel rod_model) : twist_(rod_model == RodModel::twist) {
@@ -73,7 +73,7 @@ class Builder {
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
     for (std::size_t k = 1; k < entry.edges.size(); ++k) {
       const int e = entry.edges[k - 1], f = entry.edges[k];
-      // an end that leaves the spin free has the frame of the edge next to it
+      // at an end that leaves the spin free the frame is that of the adjacent edge
       double fraction = 0.5;
       if (e == entry.ghost_begin) fraction = rod.begin == RodEnd::clamped ? 0 : 1;
       if (f == entry.ghost_end) fraction = rod.end == RodEnd::clamped ? 1 : 0;
@@ -85,7 +85,7 @@ class Builder {
   }
 
   Model build(const std::vector<ModelRod>& rods, std::vector<char> crossings) {
-    // after all others, as they join edges that do not follow one another in the list
+    // these bends are after all others, as their edges are not consecutive in the list
     for (const auto& [rod, material, turn] : rings_) {
       model_.rods[rod].closing_bend = int(model_.bends.size());
       add_bend(material, {model_.rods[rod].edges.back(), model_.rods[rod].edges.front()}, 0.5,
@@ -120,11 +120,12 @@ class Builder {
     return entry.edges.back();
   }
 
-  /// Between two edges; `fraction`: MaterialBend's, `turn`: one of ModelRod::turns.
+  /// Adds the bend between two edges; `fraction`: MaterialBend::fraction, `turn`: one of
+  /// ModelRod::turns.
   void add_bend(const RodMaterial& m, std::pair<int, int> edges, double fraction,
                 const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
-    // at a fixed end only the half edge on the rod's side bends, between two halves nothing does
+    // at a fixed end only half of the rod's edge bends; the halves of a centred edge are one edge
     const double before = bending_length(model_, e), after = bending_length(model_, f),
                  length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
     const bool plain = !twist_ || m.round_and_straight(), at_end = fraction != 0.5;
@@ -155,7 +156,7 @@ class Builder {
     return centre >= 0 && centre == model_.edges[std::size_t(f)].centre;
   }
 
-  /// nodes that rods share
+  /// Marks nodes that belong to several rods.
   void mark_shared(const std::vector<ModelRod>& rods, std::vector<char>& crossings) const {
     std::vector<int> owner(crossings.size(), -1);
     for (std::size_t r = 0; r < rods.size(); ++r)
@@ -166,15 +167,16 @@ class Builder {
       }
   }
 
-  /// Angles three to a column, those next to a crossing together: what is eliminated inside a
-  /// segment then does not reach across it. Two halves of an edge have one.
+  /// Assigns three angles to a column. Angles of the edges on both sides of a crossing are together
+  /// in a column, so that columns inside a segment have no blocks across the crossing. Two halves
+  /// of an edge have one angle.
   void place_spins(const std::vector<char>& crossings) {
     model_.spin.resize(model_.edges.size());
     model_.spin_length = 0;
     for (const ModelEdge& edge : model_.edges)
       model_.spin_length += edge.rest_length / double(model_.edges.size());
     for (const Model::Rod& rod : model_.rods) {
-      int used = 3;  // of the last column
+      int used = 3;  // components of the last column that are assigned
       for (std::size_t k = 0; k < rod.edges.size(); ++k) {
         const int edge = rod.edges[k];
         const bool last = k + 1 == rod.edges.size();
@@ -199,7 +201,8 @@ class Builder {
     }
   }
 
-  /// fixes what the ends of one rod prescribe, and its spin if nothing else does
+  /// Fixes the unknowns that the ends of a rod prescribe, and one angle if nothing else resists
+  /// spin.
   void hold(const ModelRod& rod, Model::Rod& entry) {
     if (!entry.closed) {
       if (rod.begin != RodEnd::free) model_.pin(rod.nodes.front());
@@ -216,7 +219,7 @@ class Builder {
     model_.hold_spin(entry.held_spin);
   }
 
-  /// neighbouring rods, for an ordering where no flat net is known
+  /// Sets `flat` to parallel rods, for the ordering of a model without flat positions.
   void lay_along_rods(const std::vector<ModelRod>& rods) {
     model_.flat = Eigen::Matrix2Xd::Zero(2, model_.columns());
     for (std::size_t r = 0; r < rods.size(); ++r)
@@ -226,7 +229,7 @@ class Builder {
       model_.flat.col(model_.spin[k] / 3) = model_.flat.col(model_.edges[k].to);
   }
 
-  /// which columns lie inside a segment, between two crossings of one rod
+  /// Finds the columns inside a segment, that is between two crossings of one rod.
   void find_segments(const std::vector<char>& crossings) {
     model_.segment.assign(std::size_t(model_.columns()), -2);  // not seen yet
     int segment = 0;
@@ -254,7 +257,7 @@ class Builder {
   }
 
   void find_waves() {
-    std::vector<std::size_t> next(std::size_t(model_.nodes), 0);  // wave that a node is free for
+    std::vector<std::size_t> next(std::size_t(model_.nodes), 0);  // first wave without the node
     for (std::size_t r = 0; r < model_.rods.size(); ++r) {
       std::size_t wave = 0;
       const auto nodes = [&](const auto& visit) {
@@ -282,7 +285,8 @@ class Builder {
 
 BlockSlot slot_of(Model& model, int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); }
 
-/// where the blocks of a pair of edges are, between their nodes and with their angles
+/// Sets the slots of the blocks between the nodes of a pair of edges; place_pair() also those of
+/// their angles.
 template <class Law>
 void place_vectors(Model& model, Pair<Law>& pair) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
@@ -306,8 +310,8 @@ void place_pair(Model& model, Pair<Law>& pair) {
   slots.spins = slot_of(model, angle[0], angle[1]);
 }
 
-/// Where the blocks of what follows go, in the order in which they are carried over: angles first,
-/// as they follow nodes of which some follow others.
+/// Sets where the blocks of following columns are added, in the order in which they are
+/// transferred: angles first, as they follow nodes of which some follow others.
 void place_followers(Model& model) {
   for (ModelHinge& hinge : model.hinges) place_vectors(model, hinge.pair);
   std::vector<std::vector<int>> beside(std::size_t(model.columns()));
@@ -322,7 +326,7 @@ void place_followers(Model& model) {
     take_new();
     for (const int column : beside[std::size_t(follower)])
       blocks.beside.push_back({column, slot_of(model, follower, column)});
-    // its own last: what it has with the leading ones is to be carried over as it is
+    // its own block is the last: its blocks with the leading columns must be transferred before
     blocks.beside.push_back({follower});
     for (auto& [column, own, slots] : blocks.beside)
       for (std::size_t k = 0; k < blocks.leading.size(); ++k)
@@ -369,6 +373,7 @@ void finish(Model& model) {
   std::apply(
       [&](auto&... lists) {
         const auto place = [&](auto& list) {
+          list.shrink_to_fit();  // most of a model's memory
           for (auto& pair : list) place_pair(model, pair);
         };
         (place(lists), ...);

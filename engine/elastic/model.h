@@ -1,5 +1,5 @@
-// The mechanical model of a gridshell: its nodes, what stores energy between them, and what is
-// fixed. It is const once built; a state is separate and changes.
+// The mechanical model of a gridshell: nodes, energies between them, and prescribed unknowns. It is
+// const once built; a state is separate and changes.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ struct ModelEdge {
   double rest_length = 0;  ///< mm
   double EA = 0;           ///< N
   BlockSlot slot = 0;
-  int centre = -1;  ///< node of the joint on which it is centred with its other half; -1: none
+  int centre = -1;  ///< if it is half of an edge centred on a joint: that joint's node; else -1
 };
 
 /// Bending at the node between edges e and f of a rod. f = e + 1, except where a ring closes.
@@ -80,16 +80,15 @@ using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<Sectio
 // *follows* from these. Energies, forces and the Hessian are first computed by all nodes and
 // angles, then transferred to the leading ones by the chain rule.
 
-/// Where the Hessian's blocks of a following column are added. For each column with which it has a
-/// block: the position of that block, and those of the leading columns with it (-1: the same
-/// column).
+/// Where the Hessian's blocks of a following column are added.
 struct FollowerBlocks {
+  /// A column with which the following column has a block.
   struct Column {
     int column = 0;
-    BlockSlot own = -1;
-    std::array<BlockSlot, 4> leading{-1, -1, -1, -1};
+    BlockSlot own = -1;                                ///< that block; -1: the following column
+    std::array<BlockSlot, 4> leading{-1, -1, -1, -1};  ///< of the leading columns; -1: same column
   };
-  std::vector<int> leading;  ///< columns
+  std::vector<int> leading;  ///< columns that the following column follows
   std::vector<Column> beside;
 };
 
@@ -106,15 +105,15 @@ struct ModelFollower {
 /// infinite).
 struct ModelHinge {
   Pair<JointSpin> pair;
-  int other_half = -1;   ///< of edge e; -1: the rod ends there
+  int other_half = -1;   ///< other half of edge e; -1: the rod ends there
   double stiffness = 0;  ///< k, N mm/rad; 0: fixed
   FollowerBlocks blocks = {};
 };
 
-/// A bolt between the axes of two rods that lie `eccentricity` apart at their joint, along the
-/// normal n = t_a x t_b/|t_a x t_b| to the tangents of their centred edges there. With d = x_b -
-/// x_a, E = k/2 |d - eccentricity n|^2. So a force F across the bolt puts the couple eccentricity
-/// n x F on the rods.
+/// A bolt between two rods whose axes have the distance `eccentricity` at their joint, along the
+/// normal n = t_a x t_b/|t_a x t_b| to the tangents of their centred edges. With d = x_b - x_a,
+/// E = k/2 |d - eccentricity n|^2. So a force F perpendicular to the bolt exerts the couple
+/// eccentricity n x F on the rods.
 struct ModelLink {
   int a = 0, b = 0;            ///< nodes
   int edge_a = 0, edge_b = 0;  ///< half of each centred edge
@@ -124,8 +123,8 @@ struct ModelLink {
 
 /// A rod: its nodes and their natural arc lengths. A closed rod has one arc length more than nodes.
 /// Ends that prescribe a direction (`tangent`, `clamped`) do so at the end point itself, by a ghost
-/// edge past it: its bend counts over half an edge, as EndBending says, so the constraint is second
-/// order [the symmetric ghost of beam theory].
+/// edge past it. The bend there extends over half an edge (EndBending), so the error of the
+/// constraint is of second order [the symmetric ghost of beam theory].
 struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
@@ -133,7 +132,7 @@ struct ModelRod {
   /// Natural curvature binormal about m1 and m2 of the edge before, at every node, in addition to
   /// the material's curvature; empty: 0.
   std::vector<Eigen::Vector2d> turns{};
-  std::vector<char> centred{};  ///< of every node: an edge is centred on it; empty: none is
+  std::vector<char> centred{};  ///< per node: whether an edge is centred on it; empty: none is
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   Eigen::Vector3d director{0, 0, 1};     ///< m1 at the start, as near as the tangent allows
   int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
@@ -145,32 +144,32 @@ struct ModelRod {
 /// then, in the twist model, the angles of the edges, three per column. Angles are multiplied by
 /// `spin_length`, so that all unknowns are lengths (mm), all forces N and all stiffnesses N/mm.
 struct Model {
-  int nodes = 0;           ///< ghosts too
-  double spin_length = 1;  ///< mm; the mean edge
+  int nodes = 0;           ///< number of nodes, including ghosts
+  double spin_length = 1;  ///< mean length of an edge, mm
   std::vector<ModelEdge> edges;
   std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
   std::vector<ModelSpring> springs;
   std::vector<ModelBar> bars;    ///< braces
-  std::vector<ModelLink> links;  ///< of eccentric joints
+  std::vector<ModelLink> links;  ///< bolts of eccentric joints
   PairLists pairs;
   double mean_stiffness = 0;  ///< K of the mean of joints' angles (JointAngle::weight), N mm/rad
   std::vector<ModelFollower> followers;
   std::vector<ModelHinge> hinges;
-  std::vector<NodeAction> loads;   ///< dead; they count times a load factor
+  std::vector<NodeAction> loads;   ///< dead loads, multiplied by a load factor
   std::vector<NodeAction> ground;  ///< the elastic ground
-  ContactPairs contact;            ///< edges that may touch; none: nothing keeps them apart
+  ContactPairs contact;            ///< edges that may touch; none: contact is not modelled
   std::vector<int> spin;  ///< per edge: the index of its angle, 3 column + row; empty: bend model
 
-  /// A list of edges per rod, for frames and for what turns a fixed end.
+  /// The edges and bends of a rod, and its properties.
   struct Rod {
-    std::vector<int> edges;                ///< in order, ghosts too
-    int ghost_begin = -1, ghost_end = -1;  ///< their edges
+    std::vector<int> edges;                ///< in order, including ghost edges
+    int ghost_begin = -1, ghost_end = -1;  ///< ghost edges at its ends, or -1
     bool closed = false;
-    int first_bend = 0;     ///< of those that follow one another along it
-    int closing_bend = -1;  ///< that which closes a ring, or -1
-    int held_spin = -1;     ///< edge whose angle is fixed as nothing resists the spin, or -1
-    Eigen::Vector3d director;
-    double gyration_mm2 = 0;  ///< of the section about the rod's axis, squared: (I1 + I2)/A
+    int first_bend = 0;        ///< the first of its bends, which are consecutive
+    int closing_bend = -1;     ///< the bend that closes a ring, or -1
+    int held_spin = -1;        ///< edge whose angle is fixed as nothing resists the spin, or -1
+    Eigen::Vector3d director;  ///< m1 at the start, as near as the tangent allows
+    double gyration_mm2 = 0;   ///< squared radius of gyration about the rod's axis: (I1 + I2)/A
     FibreReach fibres;
   };
   std::vector<Rod> rods;
@@ -214,8 +213,8 @@ struct Model {
   }
 };
 
-/// The length of an edge that counts for bending, mm: 0 of a ghost edge; of half a centred edge
-/// that of the complete edge.
+/// The length of an edge for bending, mm: 0 for a ghost edge; for half of a centred edge the length
+/// of the complete edge.
 double bending_length(const Model& model, int edge);
 /// The length over which the node between two edges bends, mm: the mean of their bending_length().
 double length_between(const Model& model, int e, int f);
@@ -241,8 +240,9 @@ auto* law_of(AnyModel& model, int bend) {
 /// The edges of rod `rod` at a node: one at its end, else two.
 std::vector<int> edges_beside(const Model& model, int rod, int node);
 
-/// The unit tangent of a rod at a node: of an edge centred there its direction; else that of the
-/// quadratic through the two edges, t ~ t1 l2 + t2 l1 (t1, t2 unit tangents, l1, l2 lengths).
+/// The unit tangent of a rod at a node: the direction of the edge that is centred there, else that
+/// of the quadratic through the two edges, t ~ t1 l2 + t2 l1 (t1, t2 unit tangents, l1, l2
+/// lengths).
 Eigen::Vector3d tangent_at(const Model& model, const Eigen::Matrix3Xd& x, int rod, int node);
 
 /// Where rods `a` and `b` of a model cross: at a node, or at two nodes that a spring joins.
@@ -250,27 +250,27 @@ struct Crossing {
   int rod_a = 0, node_a = 0, rod_b = 0, node_b = 0;
 };
 
-/// Adds the resistance to shear `stiffness` (N mm/rad) where rods cross, on the angle between their
-/// centred edges: E = k/2 (angle - `rest` - `opening`)^2. finish() afterwards; so for those below.
+/// Adds the resistance to shear of rods that cross, by the angle between their centred edges. Call
+/// finish() after this function and those below.
 void add_joint_shear(Model& model, const Crossing& at, const JointAngle& law);
 
-/// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
-/// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
-/// `b`; infinite: on it. The joint is of these two rods alone.
+/// Adds the resistance `stiffness` (N mm/rad) of a joint of two rods to their spin, the angle of
+/// their first directors from the joint's normal, `side` t_a x t_b/|t_a x t_b|. Infinite: the
+/// directors are along the normal.
 void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int side = 1);
 
-/// Adds the resistance to shear as an energy of every two of more rods, whose spins are no joint's
-/// own.
+/// Adds the same resistance to spin between two of more than two rods of a joint, as an energy
+/// (JointSpin).
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1);
 
 /// Adds the bolt between two rods whose axes have the distance `eccentricity` (mm) along t_a x t_b.
 /// Its stiffness is EA/|eccentricity| of the rod with the smaller EA.
 void add_joint_link(Model& model, const Crossing& at, double eccentricity);
 
-/// The nodes of its two edges.
+/// The nodes of the two edges of a link.
 std::array<int, 4> nodes_of(const ModelLink& link, const Model& model);
 
-/// Works out pattern and numbering after elements were added or unknowns fixed.
+/// Computes pattern and numbering after elements were added or unknowns were fixed.
 void finish(Model& model);
 
 }  // namespace gridshell

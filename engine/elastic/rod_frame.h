@@ -7,8 +7,8 @@
 
 namespace gridshell {
 
-/// Vector `v` carried from unit tangent a to unit tangent b by the rotation about a x b that takes
-/// one to the other. Undefined at b = -a.
+/// `v` rotated about a x b by the rotation that takes unit tangent a to unit tangent b (parallel
+/// transport). Undefined at b = -a.
 inline Eigen::Vector3d transport(const Eigen::Vector3d& v, const Eigen::Vector3d& a,
                                  const Eigen::Vector3d& b) {
   const double c = a.dot(b);
@@ -16,14 +16,15 @@ inline Eigen::Vector3d transport(const Eigen::Vector3d& v, const Eigen::Vector3d
   return c * v + axis.cross(v) + axis.dot(v) / (1 + c) * axis;
 }
 
-/// `director` carried from tangent a to b, made a unit normal of b again so round-off cannot grow.
+/// `director` transported from tangent a to b, and made a unit normal of b so that round-off cannot
+/// grow.
 inline Eigen::Vector3d carried_director(const Eigen::Vector3d& director, const Eigen::Vector3d& a,
                                         const Eigen::Vector3d& b) {
   const Eigen::Vector3d d = transport(director, a, b);
   return (d - d.dot(b) * b).normalized();
 }
 
-/// A unit normal of tangent t, as near to `request` as there is; any where `request` is along t.
+/// The unit normal of tangent t that is nearest to `request`; any normal if `request` is along t.
 inline Eigen::Vector3d normal_near(const Eigen::Vector3d& request, const Eigen::Vector3d& t) {
   const Eigen::Vector3d d = request - request.dot(t) * t;
   return d.norm() > 1e-6 * request.norm() ? d.normalized() : t.unitOrthogonal();
@@ -35,7 +36,7 @@ inline double signed_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
-/// The value of `angle` + 2 pi n nearest to `before`: angles grow past a turn, they do not jump.
+/// The value of `angle` + 2 pi n nearest to `before`, so that angles above a full turn do not jump.
 inline double unwrapped(double angle, double before) {
   return angle + 2 * M_PI * std::round((before - angle) / (2 * M_PI));
 }

@@ -24,18 +24,18 @@ inline RodSection circular_section(double diameter_mm, double young_GPa) {
 // Material and cross-section of a rod of the `twist` model: two principal axes, torsion, and a
 // natural shape.
 
-/// How far a section's outermost fibres lie from its axes, mm: what curvature strains most.
+/// Distances of a section's outermost fibres from its axes, mm: curvature strains them most.
 struct FibreReach {
   double about_1 = 0, about_2 = 0;  ///< bent about m1 and about m2
-  bool round = true;                ///< else a rectangle, both add up at its corner
-  double area_mm2 = 0;              ///< of the section; 0: of a solid one that reaches so far
+  bool round = true;                ///< else a rectangle: at its corner both strains are added
+  double area_mm2 = 0;              ///< of the section; 0: that of a solid one with this reach
 
   /// Largest strain by the curvatures about m1 and m2, 1/mm.
   double strain(const Eigen::Vector2d& curvature) const {
     if (round) return about_1 * std::hypot(curvature[0], curvature[1]);
     return about_1 * std::abs(curvature[0]) + about_2 * std::abs(curvature[1]);
   }
-  /// The strain of a section whose spin is free: about the axis that strains it most.
+  /// Largest strain of a section whose spin is free, by a curvature about any axis, 1/mm.
   double strain(double curvature) const {
     return curvature * (round ? about_1 : std::hypot(about_1, about_2));
   }
@@ -59,7 +59,7 @@ struct RodMaterial {
   }
 };
 
-/// A round rod that is naturally straight. Of its radius r: EI/EA = r^2/4.
+/// A solid round rod that is naturally straight. Its radius r follows from EI/EA = r^2/4.
 inline RodMaterial round_material(const RodSection& section, double GJ) {
   const double radius = 2 * std::sqrt(section.EI / section.EA);
   return {section.EA, section.EI, section.EI, GJ, {0, 0}, 0, {radius, radius}};
@@ -90,7 +90,7 @@ inline RodMaterial rectangular_material(double width, double height, double youn
           {height / 2, width / 2, false}};
 }
 
-/// A tube of outer diameter D and inner diameter D - 2t: GJ = G pi (D^4 - (D - 2t)^4)/32.
+/// A tube of outer diameter D and wall t, inner diameter D - 2t: GJ = G pi (D^4 - (D - 2t)^4)/32.
 inline RodMaterial tube_material(double diameter_mm, double wall_mm, double young_GPa,
                                  double shear_GPa) {
   const auto solid = [&](double diameter) {
@@ -106,9 +106,9 @@ inline RodMaterial tube_material(double diameter_mm, double wall_mm, double youn
   return tube;
 }
 
-/// A rectangular tube, measured outside as rectangular_material(): GJ = 4 G A^2 t/U by Bredt, A and
-/// U the area in the middle line of the wall and its length; for walls of up to a tenth of the
-/// smaller side within some percent.
+/// A rectangular tube with the outer dimensions of rectangular_material(): GJ = 4 G A^2 t/U by
+/// Bredt, with the area A in the middle line of the wall and the length U of that line. The error
+/// is some percent for walls of up to a tenth of the smaller side.
 inline RodMaterial box_material(double width, double height, double wall, double young_GPa,
                                 double shear_GPa) {
   const double w = width - 2 * wall, h = height - 2 * wall;

@@ -14,8 +14,8 @@
 namespace gridshell {
 namespace {
 
-/// the curvature binormal of a line as drawn at each of its nodes, about the directors m1 and m2
-/// that are carried along it from `director` at its start; 0 at ends
+/// The curvature binormal of a rod as drawn at each of its nodes, about the directors m1 and m2
+/// that are carried along it from `director` at its start; 0 at ends.
 std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) {
   const std::vector<int>& nodes = rod.nodes;
   const std::size_t size = nodes.size(), last = rod.closed() ? size : size - 2;
@@ -31,7 +31,7 @@ std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) 
   return turns;
 }
 
-/// the rod without its ghosts, and the constraints of its ends
+/// The rod of a mesh, without its ghosts, with the constraints of its ends.
 ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
                 const Eigen::Vector3d& director) {
   ModelRod rod;
@@ -46,10 +46,10 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
     rod.nodes.push_back(node);
     rod.position.push_back(mesh.position[r][k]);
   }
-  // a closed rod comes back to its first node
+  // the last node of a closed rod is its first one
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
   for (const int node : rod.nodes) rod.centred.push_back(mesh.is_centred(node));
-  // the piece next to an end is as long as one next to a centred joint: half an edge
+  // next to an end, as next to a centred joint, the piece is half an edge long
   const auto halve_end = [&](int end, auto first, auto last, char& centred) {
     const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
     const auto joint =
@@ -65,7 +65,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
                                                drawn_place(mesh, rod.nodes[k - 1]))
                                                   .norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
-  // what is on a spring is free in itself
+  // an end on a spring is free: the spring is a separate element
   const auto held = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
   };
@@ -74,8 +74,8 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   return rod;
 }
 
-/// A rod's first director: the mean of its joints' normals, carried to its start, so that it does
-/// not depend on the order in which its points are listed.
+/// A rod's first director: the mean of its joints' normals, carried to its start. It does not
+/// depend on the order in which the rod's points are listed.
 Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -101,7 +101,8 @@ Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
   return (sum.x() * begin + sum.y() * first.cross(begin)).normalized();
 }
 
-/// edge points with a tail, or without a rod, joints that the boundary fixes, supports of springs
+/// Pinned nodes other than rod ends: edge points with a tail or without a rod, joints that the
+/// boundary fixes, supports of springs.
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
   std::vector<int> nodes = mesh.fixed_joints;
   for (const MeshSpring& spring : mesh.springs) {
@@ -115,8 +116,8 @@ std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
   return nodes;
 }
 
-/// (u, v) of the model's columns: the mesh's nodes and their twins, and angles where their edges
-/// are
+/// Sets (u, v) of the model's columns: those of the mesh's nodes, also for second nodes of joints;
+/// an angle has the mean position of its edges.
 void lay_flat(const RodMesh& mesh, Model& model) {
   model.flat.leftCols(mesh.nodes()) = mesh.flat;
   if (model.nodes > mesh.nodes())
@@ -168,7 +169,7 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
 }
 
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rod_model) {
-  // a member more does not compile here: whoever adds one puts it into the model
+  // this does not compile with another member: put it into the model
   const auto& [materials, joints, own_joints, weight_N_per_mm, joint_weight_N, points, contact,
                bolts, braces] = shell;
   const Crossings at_joints = crossings_of(mesh);

@@ -23,7 +23,7 @@ Eigen::Matrix3Xd tangents_of(const Model& model, const Eigen::Matrix3Xd& x) {
   return tangents;
 }
 
-/// the ghost's node at `length` past the end
+/// Moves the ghost's node to one edge length past the end, along `direction`.
 void put_ghost(const Model& model, int ghost, bool at_end, const Eigen::Vector3d& direction,
                Eigen::Matrix3Xd& x) {
   const ModelEdge& edge = model.edges[std::size_t(ghost)];
@@ -54,7 +54,7 @@ void carry_reference_twist(const Model& model, const Eigen::Matrix3Xd& tangents,
   }
 }
 
-/// Along each rod a frame without twist whose first director is the rod's.
+/// First directors of frames without twist along each rod, starting with the rod's director.
 Eigen::Matrix3Xd start_directors(const Model& model, const Eigen::Matrix3Xd& tangents) {
   Eigen::Matrix3Xd directors(3, tangents.cols());
   for (const Model::Rod& rod : model.rods) {
@@ -69,8 +69,8 @@ Eigen::Matrix3Xd start_directors(const Model& model, const Eigen::Matrix3Xd& tan
   return directors;
 }
 
-/// First directors of hinged edges are the joints' normals; of the two the one nearer to the
-/// director that is there, so that a joint that closes continues with a negative angle.
+/// Sets the first directors of hinged edges to the joints' normals. Of the two normals it takes the
+/// one nearer to the present director, so that the angle of a joint that closes becomes negative.
 void put_normals(const Model& model, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& director) {
   for (const auto& [pair, other_half, stiffness, blocks] : model.hinges) {
     const Eigen::Vector3d normal =
@@ -81,14 +81,14 @@ void put_normals(const Model& model, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd
   }
 }
 
-/// Joints in the middle of their centred edges.
+/// Moves the ends of centred edges so that their joints are in the middle.
 void centre(const Model& model, Eigen::Matrix3Xd& x) {
   for (const auto& [node, middle, first, blocks] : model.followers)
     x.col(first) = x.col(middle) - 0.5 * (x.col(node) - x.col(first));
   model.follow(x);
 }
 
-/// The position of each edge of a rod along it: its middle, of a ghost the end point itself.
+/// The position of each edge along a rod, mm: that of its middle; for a ghost edge the end point.
 std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
   std::vector<double> places;
   double s = 0;
@@ -96,14 +96,14 @@ std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
     const bool ghost = edge == rod.ghost_begin || edge == rod.ghost_end;
     const ModelEdge& one = model.edges[std::size_t(edge)];
     const double length = ghost ? 0 : one.rest_length;
-    // of half a centred edge at the joint
+    // half of a centred edge is at the joint
     places.push_back(s + (one.centre < 0 ? 0.5 : one.centre == one.to ? 1.0 : 0.0) * length);
     s += length;
   }
   return places;
 }
 
-/// Linear between known values, continued straight past the ends.
+/// Linear interpolation between known values, extrapolated past the ends.
 double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
   if (at.size() == 1) return value.front();
   const std::size_t k = piece_at(at, s);
@@ -119,7 +119,7 @@ Eigen::Vector3d material_director(const Model& model, const State& state, int ed
       .col(0);
 }
 
-/// the angle from the material director of an edge of `to` to that of an edge of `from`
+/// The angle from the material director of an edge of `to` to that of an edge of `from`, rad.
 double angle_between(const Model& from, const State& a, int edge_a, const Model& to, const State& b,
                      int edge_b) {
   const Eigen::Vector3d t = tangent_of(to, b.x, edge_b);
@@ -205,7 +205,11 @@ State StateTransfer::carry(const State& state) const {
   State carried = start_state(to_, columns_of(to_mesh_, to_, nodes));
   Eigen::VectorXd axial;
   meshes_.edges(state.force, axial);
-  carried.force << axial, state.force.tail(to_.forces() - axial.size());
+  // torques belong to the springs of joints: another number of them are other springs
+  const Eigen::Index torques = to_.forces() - axial.size();
+  carried.force.head(axial.size()) = axial;
+  if (from_.forces() - Eigen::Index(from_.edges.size()) == torques)
+    carried.force.tail(torques) = state.force.tail(torques);
   if (!to_.has_spins()) return carried;
   for (std::size_t k = 0; k < std::min(from_.hinges.size(), to_.hinges.size()); ++k) {
     if (!is_closed(from_, state, from_.hinges[k])) continue;
@@ -217,9 +221,9 @@ State StateTransfer::carry(const State& state) const {
   return carried;
 }
 
-/// The carried frames are without twist along each rod, so angles there are the twist itself, but
-/// for those of hinged edges: their angle off the joint's normal is that, and how the frame without
-/// twist lies off the normal.
+/// Transfers the angles. The transferred frames have no twist along each rod, so angles are the
+/// twist itself, except for hinged edges: to their angle from the joint's normal the angle between
+/// the normal and the frame without twist is added.
 void StateTransfer::carry_spins(const State& state, State& carried) const {
   std::vector<double> off(to_.edges.size(), 0);
   const Eigen::Matrix3Xd tangents = tangents_of(to_, carried.x);
@@ -256,7 +260,7 @@ void StateTransfer::carry_spins(const State& state, State& carried) const {
     spin = to_.spin_length * std::remainder(spin / to_.spin_length, 2 * M_PI);
     if (hinge.stiffness == 0) spin = 0;
   }
-  // from edge to edge rods turn less than half round
+  // between adjacent edges a rod twists by less than half a turn
   for (std::size_t k = 0; k < to_.bends.size(); ++k) {
     double& known = carried.reference_twist[Eigen::Index(k)];
     known = unwrapped(known, known - twist_at(to_, carried, int(k)));
@@ -281,7 +285,7 @@ Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model,
   return nodes;
 }
 
-// What a state stores, and how far it bends its rods, without derivatives.
+// Energies and bending strains of a state, without derivatives.
 
 Eigen::VectorXd bending_of(const Model& model, const State& state) {
   Eigen::VectorXd energy(Eigen::Index(model.bends.size()));
@@ -315,7 +319,7 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
   };
   for (const auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
     put(pair, pair.law.bend.bent(pair.law.excess(pair_geometry(model, state, pair))));
-  // 2 EI/l tan^2 of half the turn, as it counts at an end
+  // E = k/4 (curvature times length)^2
   for (const auto& pair : std::get<std::vector<Pair<EndBending>>>(model.pairs))
     put(pair,
         2 * std::sqrt(pair.law.value(pair_geometry(model, state, pair)) / pair.law.stiffness));

@@ -1,4 +1,4 @@
-// What changes of a model: positions, angles, axial forces, and the frames that go with them.
+// The state of a model: positions, angles, axial forces, and reference frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,18 +10,18 @@ namespace gridshell {
 
 struct ModelHinge;
 
-/// Reference frames belong to the positions: move them by move_to() alone.
+/// A state. Its reference frames belong to its positions, so change `x` only by move_to().
 struct State {
   Eigen::Matrix3Xd x;  ///< 3 x columns of the model: positions and angles, mm
   /// unknowns of the mixed form: axial, one per edge, N; then torques of joints with a spring, N mm
   Eigen::VectorXd force;
-  Eigen::Matrix3Xd director = {};        ///< twist model: of the reference frames, one per edge
+  Eigen::Matrix3Xd director = {};        ///< twist model: first reference director of each edge
   Eigen::VectorXd reference_twist = {};  ///< twist model: m_ref, one per bend; complete turns count
 };
 
-/// A state with the columns at `x` and no axial force; along each rod a frame without twist whose
-/// first director is the rod's. Ghosts that x does not have (fewer columns than nodes) go straight
-/// on past their ends, and angles are zero.
+/// A state with the columns at `x`, zero angles and no axial forces. Along each rod the reference
+/// frame has no twist and starts with the rod's first director. If `x` has fewer columns than there
+/// are nodes, ghosts continue the rods straight past their ends.
 State start_state(const Model& model, const Eigen::Matrix3Xd& x);
 
 /// Whether the rods of a hinge have passed one another since they were drawn: the angle between
@@ -38,10 +38,10 @@ void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Ve
 
 // States between meshes of one footprint.
 
-/// Carries states from a model on one mesh to a model on another: positions by cubic interpolation
-/// along the rods, axial forces edge by edge, torques joint by joint, and of the spins the material
-/// frames: their twist is spread along the arc length, and what a clamped end prescribes is kept to
-/// round-off. Meshes and models must outlive it.
+/// Transfers states from a model on one mesh to a model on another: positions by cubic
+/// interpolation along the rods, axial forces edge by edge, torques joint by joint. Angles follow
+/// from the material frames, whose twist is distributed along the arc length; at clamped ends the
+/// frame is equal up to round-off. Meshes and models must outlive it.
 class StateTransfer {
  public:
   StateTransfer(const RodMesh& from_mesh, const Model& from, const RodMesh& to_mesh,
@@ -49,7 +49,7 @@ class StateTransfer {
 
   State carry(const State& state) const;
 
-  /// Positions alone, of the meshes' nodes.
+  /// Transfer of the positions of the meshes' nodes alone.
   const MeshTransfer& meshes() const { return meshes_; }
 
  private:

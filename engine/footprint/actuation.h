@@ -1,42 +1,41 @@
-// How the ends of a footprint's rods are meant to move.
+// Prescribed motion of the boundary, and what selects a branch where a path loses its stability.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace gridshell {
 
-/// Where the edge points are as the boundary moves, straight and evenly: column 2r is the start, 2r
-/// + 1 the end of rod r. The far end of a tail turns about its edge point.
+/// Motion of the edge points, straight and linear in the progress. Column 2r is the start of rod r,
+/// column 2r + 1 its end. `begin`: original, `end`: actuated boundary.
 struct BoundaryMotion {
-  Eigen::Matrix3Xd begin, end;  ///< 3 x edge points, mm
-  /// unit tangents there, along the rod as its positions grow; needed where a direction is
-  /// prescribed
+  Eigen::Matrix3Xd begin, end;  ///< positions, 3 x edge points, mm
+  /// Unit tangents at the edge points, in the direction in which positions along the rod grow;
+  /// needed if a direction is prescribed.
   Eigen::Matrix3Xd begin_tangent = {}, end_tangent = {};
-  /// far ends of the tails there; needed where rods have tails
+  /// Far ends of the tails, which rotate about their edge points; needed if rods have tails.
   Eigen::Matrix3Xd begin_far = {}, end_far = {};
-  /// joints that the boundary fixes, in the footprint's order
+  /// Positions of the joints that the boundary fixes, in the footprint's order.
   Eigen::Matrix3Xd begin_joints = {}, end_joints = {};
 };
 
-// What chooses among the states that a symmetric shell can go to.
-
-/// Which of the many buckled shapes a flat footprint is pushed towards.
+/// The buckled shape towards which a flat footprint is pushed.
 struct BuckleSeed {
-  double up = 1;        ///< +1 or -1
+  double up = 1;        ///< +1: upwards, -1: downwards
   double diagonal = 1;  ///< +1: the corners on y = x end up lower, -1: those on y = -x
 };
 
-/// What chooses where a path that loses its stability goes: the side on which the imperfection's
-/// part along the modes that lost stability points. It only chooses; every certified state is one
-/// of the perfect shell.
+/// Imperfection that selects the branch where a path loses its stability: the path continues to the
+/// side of the imperfection's part along the modes that lost stability. Every certified state is
+/// one of the perfect shell.
 struct Imperfection {
-  double size_mm = 2e-3;  ///< with which a leaving branch is entered; 0: the path stays on the
-                          ///< symmetric branch, through states that are not stable
+  double size_mm = 2e-3;  ///< amplitude with which a branch is entered; 0: the path remains on the
+                          ///< symmetric branch, through unstable states
   int seed = 1;
-  /// false: a direction per joint, drawn from the seed; true: the lowest mode itself, to one side
-  /// of it with odd seeds and to the other with even ones
+  /// false: a random direction per joint; true: the lowest mode itself, with opposite signs for odd
+  /// and even seeds
   bool soft_mode = false;
 
+  /// Whether a branch is selected.
   bool chooses() const { return size_mm > 0; }
 };
 

@@ -11,7 +11,7 @@
 namespace gridshell {
 namespace {
 
-// how near two positions are the same, over d
+// distance over d below which two positions are equal
 constexpr double same = 1e-9;
 
 bool inside(const std::vector<Interval>& pieces, double at, double margin) {
@@ -22,7 +22,8 @@ bool inside(const std::vector<Interval>& pieces, double at, double margin) {
 
 using Line = std::vector<Eigen::Vector2d>;
 
-/// The parts of a polyline inside a cut; they end before it, where two blocks share a point.
+/// The parts of a polyline inside a cut. They end before the cut: points on it would be in the
+/// outlines of both blocks.
 std::vector<Line> clipped(const Line& line, const Assemblage::PlacedBlock& block, Side side) {
   std::vector<Line> kept;
   bool open = false;
@@ -51,7 +52,7 @@ tl::unexpected<Error> refuse(const Places& places, const Join& join, const std::
 }
 
 bool face(Side a, Side b) {
-  // east and west, north and south are neighbours
+  // the opposite sides are neighbours in the enum: east and west, north and south
   return a != b && int(a) / 2 == int(b) / 2;
 }
 
@@ -110,7 +111,7 @@ double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
 }
 
-/// Both nets at the joints of a seam between blocks that lie in place.
+/// Both nets at the joints of a seam between two blocks with known positions.
 Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const Places& places, const Join& join) {
   std::vector<std::array<NetPoint, 2>> pairs;
   for (const Eigen::Vector2d& joint : places[join.first.block].row(join.first.side)) {
@@ -121,7 +122,7 @@ Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const Places& places, cons
   return pairs;
 }
 
-/// Puts `second` next to the first, or the first next to `second` where `second` is placed already.
+/// Moves one block of a join next to the other: the second block if `second`, else the first.
 Result<void> place_beside(Places& places, const Join& join, bool second) {
   TRY(shift, shift_of(places, join));
   PlacedBlock& moved = places[second ? join.second.block : join.first.block];
@@ -129,13 +130,13 @@ Result<void> place_beside(Places& places, const Join& join, bool second) {
   TRY(pairs, pairs_at(places, join));
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& [a, b] : *pairs) middle += (a.position - b.position) / double(pairs->size());
-  // level: all boundaries stay in one plane
+  // only horizontally: all boundaries remain in one plane
   middle.z() = 0;
   moved.offset += second ? middle : Eigen::Vector3d(-middle);
   return {};
 }
 
-/// Arranges all blocks from the first on, along the joins.
+/// Positions all blocks, starting from the first, along the joins.
 Result<void> place_all(Places& places, const std::vector<Join>& joins) {
   std::vector<char> placed(places.size(), 0);
   placed.front() = 1;
@@ -156,7 +157,7 @@ Result<void> place_all(Places& places, const std::vector<Join>& joins) {
 }
 
 Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
-  // closes a loop only where nothing is left to shift
+  // all blocks have their positions: a remaining shift means that a loop of joins does not close
   TRY(shift, shift_of(places, join));
   const double d = places.front().block.spacing;
   if (shift->norm() > 1e-9 * d)
@@ -208,7 +209,7 @@ Result<void> check_apart(const Places& places) {
   return {};
 }
 
-/// How far a point lies along the direction of `side`'s pair: u + v, or v - u.
+/// Coordinate of a point across the cuts of `side`: u + v (east, west) or v - u (north, south).
 double along_sides(Side side, const Eigen::Vector2d& uv) {
   return side == Side::east || side == Side::west ? uv.x() + uv.y() : uv.y() - uv.x();
 }
@@ -280,7 +281,7 @@ std::vector<Eigen::Vector2d> Assemblage::PlacedBlock::row(Side side) const {
   for (int i = -last; i <= last; ++i) {
     const double u = line_of(block.placement, i, d);
     const double v = sum ? *cut * d - u : *cut * d + u;
-    // both rods of the joint reach it
+    // a joint only if both its rods reach it
     if (inside(block.domain->intervals(Family::u, v), u, margin) &&
         inside(block.domain->intervals(Family::v, u), v, margin) &&
         within_cuts(Eigen::Vector2d(u, v) + shift))
@@ -294,7 +295,7 @@ std::vector<Eigen::Matrix2Xd> Assemblage::PlacedBlock::outline(int points) const
   const auto cut_away = [&](Eigen::Index k) {
     return std::ranges::any_of(all_sides, [&](Side side) { return depth(side, ring.col(k)) < 0; });
   };
-  // once around, from a point that is cut away where there is one
+  // once around, starting at a point that is cut away, if there is one
   Eigen::Index first = 0;
   while (first + 1 < ring.cols() && !cut_away(first)) ++first;
   Line around;

@@ -26,7 +26,7 @@ enum class Side { east, west, north, south };
 struct Block {
   std::string name;
   std::shared_ptr<const ChebyshevNet> net;
-  std::shared_ptr<const Domain> domain;  ///< before it is cut
+  std::shared_ptr<const Domain> domain;  ///< its part of the (u, v) plane, before the cuts
   /// moves the net into the common frame of all blocks: its boundary in z = 0, +(u + v) along x
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   double spacing = 0;  ///< d, mm
@@ -41,7 +41,7 @@ struct BlockSide {
   Side side = Side::east;
 };
 
-/// Two sides that are joined to a seam: an east and a west side, or a north and a south side.
+/// Two sides that are joined in a seam: an east and a west side, or a north and a south side.
 struct Join {
   BlockSide first, second;
 };
@@ -63,13 +63,13 @@ struct Seam {
   double max_kink_deg() const;
 };
 
-/// A rod of a single block, as points at the block's position in the assembled shell.
+/// A rod of a single block as a polyline, at the block's position in the assembled shell.
 struct BlockRod {
   Eigen::Matrix3Xd net;   ///< points on the net, mm
   Eigen::Matrix2Xd flat;  ///< the same points in the complete footprint, mm
 };
 
-/// Joined blocks: their footprints next to each other in one plane, their nets in one space.
+/// Joined blocks: their footprints in one plane, their nets in one space.
 class Assemblage {
  public:
   /// Joins the blocks. In the footprint each block is translated by an integer number of cells, so
@@ -83,20 +83,20 @@ class Assemblage {
   static Result<Assemblage> make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                  double max_gap_mm);
 
-  /// The net of the assembled shell: inside a block that block's net, on a seam the mean of the
-  /// two.
+  /// The net of the assembled shell: that of the block that contains a point; on a seam the mean of
+  /// the nets of both blocks.
   std::shared_ptr<const ChebyshevNet> net() const;
   /// The region of the joined footprints. Rods continue across seams.
   std::unique_ptr<Domain> domain() const;
-  /// Positions at the columns of `uv`, 3 x n, mm, near the net but without gaps: at a seam each
-  /// block is moved towards the other by half the gap; the move decreases to zero within `fade_mm`
-  /// of the seam. Errors: those of net()->at().
+  /// Positions at the columns of `uv`, 3 x n, mm, on the net but without gaps: at a seam each block
+  /// is displaced towards the other by half the gap; the displacement decreases to zero within
+  /// `fade_mm` of the seam. Errors: those of net()->at().
   Result<Eigen::Matrix3Xd> closed(const Eigen::Matrix2Xd& uv, double fade_mm) const;
 
   const std::vector<Seam>& seams() const { return seams_; }
   int blocks() const;
   const Block& block(int index) const;
-  /// The rods of one block, cut at its boundary and seams, as polylines of steps of about
+  /// The rods of one block, cut at its boundary and seams, as polylines with steps of at most
   /// `step_mm`. Errors (bad_input): those of its net.
   Result<std::vector<BlockRod>> rods(int index, double step_mm) const;
 
@@ -109,9 +109,7 @@ class Assemblage {
   std::vector<Seam> seams_;
 };
 
-// A block at its position in an assembled shell.
-
-/// +1 if a cut of this side retains what is below its row (east, north), else -1.
+/// +1 if a cut of this side retains the part below its row (east, north), else -1.
 double outward(Side side);
 
 /// A block translated by `shift` in the footprint and by `offset` in space. Arguments (u, v) are
@@ -126,12 +124,13 @@ struct Assemblage::PlacedBlock {
   /// Distance of `uv` from the cut on `side`, measured in u + v or v - u, positive inside; infinite
   /// without a cut.
   double depth(Side side, const Eigen::Vector2d& uv) const;
-  /// Whether `uv` is inside all cuts; next function: inside the uncut boundary. Tolerance 1e-9 d.
+  /// Whether `uv` is inside all cuts, with a tolerance of 1e-9 d.
   bool within_cuts(const Eigen::Vector2d& uv) const;
+  /// Whether `uv` is inside the boundary before the cuts, with a tolerance of 1e-9 d.
   bool within_boundary(const Eigen::Vector2d& uv) const;
   /// The pieces of a grid line (as Domain::intervals()) inside the block, in order.
   std::vector<Interval> intervals(Family family, double c) const;
-  /// The joints on the row of a cut that are inside the boundary, in the order of u.
+  /// Positions (u, v) of the joints on the row of a cut that are inside the boundary, by rising u.
   std::vector<Eigen::Vector2d> row(Side side) const;
   /// The parts of the boundary that the cuts leave: open counter-clockwise polylines that end just
   /// before the cuts. Without cuts the complete boundary.

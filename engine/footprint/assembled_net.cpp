@@ -1,4 +1,4 @@
-// What an assemblage is to those who know nets and domains: both piece by piece.
+// An assemblage as a Chebyshev net and as a domain: each is made of those of the blocks.
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ class AssembledNet final : public ChebyshevNet {
   std::shared_ptr<const Places> places_;
 };
 
-/// Open polylines joined where their ends are nearest, from the first on.
+/// Joins open polylines to a ring: after each the one whose first point is nearest to its end.
 std::vector<Eigen::Vector2d> linked(std::vector<Eigen::Matrix2Xd> pieces) {
   std::vector<Eigen::Vector2d> ring;
   while (!pieces.empty()) {
@@ -68,8 +68,8 @@ std::vector<Eigen::Vector2d> linked(std::vector<Eigen::Matrix2Xd> pieces) {
   return ring;
 }
 
-/// `points` of the corners of a closed polyline, about even by length: corners lie on the blocks'
-/// boundaries, what is between them need not.
+/// Chooses `points` corners of a closed polyline, about evenly by length. Points between corners
+/// are not used: they need not be on the boundary of a block.
 Eigen::Matrix2Xd evenly(const std::vector<Eigen::Vector2d>& ring, int points) {
   std::vector<double> length{0};
   for (std::size_t k = 1; k <= ring.size(); ++k)
@@ -145,13 +145,13 @@ Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double f
       if (!first && held.front() != &(*places_)[join.second.block]) continue;
       const BlockSide own = first ? join.first : join.second;
       const PlacedBlock& other = (*places_)[first ? join.second.block : join.first.block];
-      // straight across to the seam, where both nets are evaluated
+      // both nets are evaluated at the nearest point of the seam
       const double t = held.front()->depth(own.side, uv.col(k)) / fade;
       const bool sum = own.side == Side::east || own.side == Side::west;
       const Eigen::Vector2d across = 0.5 * Eigen::Vector2d(sum ? 1 : -1, 1) * outward(own.side);
       const Eigen::Vector2d on_seam = uv.col(k) + t * fade * across;
       const auto a = held.front()->at(on_seam), b = other.at(on_seam);
-      // past a seam's end one of the nets may fold: nothing is to be closed there
+      // past the end of a seam one of the nets may fold: there is no gap to close
       if (!(t < 1) || !a || !b) continue;
       points->col(k) += 0.5 * (1 - t) * (1 - t) * (1 + 2 * t) * (b->position - a->position);
     }

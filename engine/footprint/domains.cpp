@@ -15,7 +15,7 @@ CurveDomain::CurveDomain(ClosedCurve curve) : curve_(std::move(curve)) {
         std::max(reach_, curve_.at(curve_.last() * k / samples).position.lpNorm<Eigen::Infinity>());
   for (const double t : curve_.breaks())
     reach_ = std::max(reach_, curve_.at(t).position.lpNorm<Eigen::Infinity>());
-  // between samples a smooth curve reaches a little further
+  // between the samples a smooth curve may reach a little further
   reach_ *= 1 + 1e-5;
 }
 
@@ -40,7 +40,7 @@ Eigen::Matrix2Xd CurveDomain::boundary(int points) const {
       ring.col(k) = curve_.at(curve_.at_arc_length(curve_.length() * k / points)).position;
     return ring;
   }
-  // each piece has its fraction of the points, from its first corner on
+  // the points are distributed over the pieces by length; each piece has its first corner
   int first = 0;
   for (int k = 0; k < pieces; ++k) {
     const double from = curve_.arc_length(breaks[k]), to = curve_.arc_length(breaks[k + 1]);
@@ -83,10 +83,10 @@ class Cap final : public Domain {
   double reach() const override { return reach_; }
 
  private:
-  /// distance from `start`, which is above the plane, along `direction` to the plane
+  /// Distance from `start`, which is above the plane, along `direction` to the plane.
   double crossing(const Eigen::Vector2d& start, const Eigen::Vector2d& direction,
                   double guess) const {
-    // depth below the plane and its slope; past a fold counts as below
+    // depth below the plane and its slope; points past a fold count as below
     const auto look = [&](double at) -> Eigen::Vector2d {
       const Eigen::Vector2d uv = start + at * direction;
       const auto point = net_.at(uv[0], uv[1]);
@@ -138,8 +138,8 @@ class Rectangle final : public Domain {
     for (int k = 0; k < 4; ++k) perimeter += (corners[(k + 1) % 4] - corners[k]).norm();
     for (int k = 0; k < 4; ++k) {
       so_far += (corners[(k + 1) % 4] - corners[k]).norm();
-      first[k + 1] =
-          std::max(first[k] + 1, static_cast<int>(std::lround(points * so_far / perimeter)));
+      first[k + 1] = std::clamp(static_cast<int>(std::lround(points * so_far / perimeter)),
+                                first[k] + 1, std::max(first[k] + 1, points - 3 + k));
     }
     first[4] = points;
     Eigen::Matrix2Xd ring(2, points);
@@ -242,14 +242,14 @@ class Part final : public Domain {
   }
   double step() const { return net_->chord(); }
 
-  /// The function that is above zero outside; 1 where there is no net.
+  /// Value of the function that is above zero outside; 1 if the net does not reach the point.
   double outside(const Eigen::Vector2d& uv) const {
     const auto point = net_->at(uv.x(), uv.y());
     const double value = point ? outside_(point->position) : 1;
     return std::isnan(value) ? 1 : value;
   }
 
-  /// Whether a point is inside: the function is below zero, and a node next to it is inside.
+  /// Whether a point is inside: the function is below zero, and a neighbouring node is inside.
   bool holds(const Eigen::Vector2d& uv) const {
     const int i = int(std::lround(uv.x() / step())), j = int(std::lround(uv.y() / step()));
     bool near_inside = false;
@@ -258,8 +258,8 @@ class Part final : public Domain {
     return near_inside && outside(uv) < 0;
   }
 
-  /// Where a line leaves the part between its sample k, which is inside, and the next one on that
-  /// side.
+  /// Position at which a line leaves the part, between its sample k, which is inside, and the
+  /// sample k + side.
   double crossing(const Line& line, int k, int side) const {
     const double from = k * step(), h = 1e-4 * step();
     const auto look = [&](double s) -> Eigen::Vector2d {
@@ -306,11 +306,11 @@ Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
   constexpr int rays = 360;
   auto part = std::make_unique<Part>(std::move(net), std::move(outside));
   for (int k = 0; k < rays; ++k)
-    if (part->exits(2 * M_PI * k / rays) != 1)
+    if (const int exits = part->exits(2 * M_PI * k / rays); exits != 1)
       return invalid(
-          "the boundary: got two crossings of the ray from the apex at {} degrees from the first "
+          "the boundary: got {} crossings of the ray from the apex at {} degrees from the first "
           "rod, expected one: all of the boundary is visible from the apex",
-          k);
+          exits, k);
   return part;
 }
 

@@ -1,4 +1,5 @@
-// The inside of a closed curve that a user gives.
+// Domains in the (u, v) plane: the inside of a closed curve, and the parts of Chebyshev nets that
+// boundaries enclose.
 #pragma once
 
 #include <memory>
@@ -13,12 +14,13 @@
 
 namespace gridshell {
 
-/// Grid lines are cut where they cross the curve; a curve with hollows cuts a line more than once.
+/// The inside of a closed curve. A curve that is not convex may cut a grid line more than once.
 class CurveDomain final : public Domain {
  public:
   explicit CurveDomain(ClosedCurve curve);
   std::vector<Interval> intervals(Family family, double c) const override;
-  /// evenly by arc length between corners, all corners among them where `points` allows
+  /// The boundary evenly by arc length between corners, with all corners if `points` is large
+  /// enough.
   Eigen::Matrix2Xd boundary(int points) const override;
   double reach() const override { return reach_; }
 
@@ -34,13 +36,14 @@ class CurveDomain final : public Domain {
 /// Errors (bad_input): cut_height not in [0, 1).
 Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height);
 
-/// The upper half of a surface of revolution, between two rings `length` apart along the axis and
-/// centred at the net's middle: |phi| <= pi/2, so that its long edges lie in z = 0. In the
-/// footprint a rectangle along the diagonal u = v. boundary() has all four corners. Errors
-/// (bad_input): length not positive; the net folds or ends before (says where).
+/// The upper half, |phi| <= pi/2, of a surface of revolution between two rings at a distance of
+/// `length_mm` along the axis, centred at the net's middle. Its long edges are in z = 0. In the
+/// footprint it is a rectangle along the diagonal u = v. boundary() contains all four corners.
+/// Errors (bad_input): length not positive; the net folds or ends before, with the position.
 Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length_mm);
 
-/// Half of the net between the two ends of the net, where its profile ends or it folds.
+/// The upper half of a surface of revolution between the two ends of the net, where its profile
+/// ends or the net folds.
 std::unique_ptr<Domain> half_of_all(const RevolutionNet& net);
 
 /// All of a translation net: a rectangle along u and v.
@@ -48,15 +51,16 @@ std::unique_ptr<Domain> all_of(const TranslationNet& net);
 
 // The part of a net on a surface that its boundary encloses.
 
-/// Where `outside` is below zero on a net, as far as that is joined to the apex. Grid lines are cut
-/// to round-off; pieces shorter than the net's grid may be overlooked. boundary() takes even polar
-/// angles in (u, v). Errors (bad_input): a ray from the apex crosses the boundary more than once.
+/// The part of a net in which `outside` is below zero and which is connected to the apex. Crossings
+/// of grid lines with the boundary are solved to round-off; pieces shorter than the net's grid may
+/// be missed. boundary() takes even polar angles in (u, v). Errors (bad_input): a ray from the apex
+/// crosses the boundary more than once.
 Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
                                         Surface::Function outside);
 
-/// All that a net's rods reach from its apex. Grid lines are cut to round-off where they meet a
-/// line of the mesh; pieces shorter than four of the net's chords are left out: rods that short
-/// bear no compression without stretching. boundary() is the outer edge, without holes, at points
+/// The part of a net that its rods reach from its apex. Grid lines end, to round-off, where the net
+/// meets a line of the mesh. Pieces shorter than four of the net's chords are left out: such short
+/// rods would be compressed instead of bent. boundary() is the outer edge, without holes, at points
 /// where it crosses the net's grid.
 std::unique_ptr<Domain> reached_part(std::shared_ptr<const MarchedNet> net);
 

@@ -6,14 +6,15 @@
 namespace gridshell {
 namespace {
 
-// a joint closer to the boundary than this (times d) is on it: its rods end there separately
+// a crossing closer to the boundary than this, over d, is on it: it is no joint, both rods end
+// there
 constexpr double on_boundary = 1e-6;
 constexpr double most_joints = 1e6;
 
-/// Fills the joints of a square grid, and the joints and marks of its rods, from their lines and
-/// spans.
+/// Computes the joints of a square grid, and the joints and marks of its rods, from the rods' lines
+/// and spans.
 void cross(Footprint& net) {
-  // the v-rods of each line index; a line that a concave boundary cuts twice carries several rods
+  // the v-rods of each line: a boundary that is not convex may cut a line into several rods
   std::map<int, std::vector<int>> v_rods;
   for (int r = 0; r < int(net.rods.size()); ++r)
     if (net.rods[r].family == Family::v) v_rods[net.rods[r].index].push_back(r);
@@ -53,7 +54,7 @@ void add_rods(Footprint& net, const Domain& domain, Family family, int index) {
       net.rods.push_back(FootprintRod::of_grid(family, index, line, span));
 }
 
-/// The leg that `pick`, the smaller or the larger of two, leaves of `start` and all legs.
+/// The smallest or largest of `start` and all legs; `pick` returns the smaller or larger of two.
 template <class Pick>
 double leg(const Footprint& net, double start, Pick pick) {
   double found = start;
@@ -64,7 +65,7 @@ double leg(const Footprint& net, double start, Pick pick) {
   return found;
 }
 
-/// Index of the segment of a polyline that a position is on.
+/// Index of the piece of a polyline that contains a position.
 std::size_t piece_at(const std::vector<Eigen::Vector4d>& path, double position) {
   const auto after =
       std::upper_bound(path.begin() + 1, path.end() - 1, position,
@@ -194,7 +195,7 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   return net;
 }
 
-// longest leg, over d, of the radius that a message proposes
+// longest leg, over d, that is left with the radius that the error message proposes
 constexpr double short_leg = 1e-3;
 
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {

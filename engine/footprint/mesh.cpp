@@ -13,15 +13,16 @@ Eigen::Matrix3Xd FlatFrame::all(const Eigen::Matrix2Xd& uv) const {
 
 namespace {
 
-/// Where a rod is cut into segments, legs and tails: far end, edge point, joints, edge point, far
-/// end.
+/// A position at which a rod is cut into segments, legs and tails: a far end, an edge point or a
+/// joint.
 struct Stop {
   int node;
   double at;
   bool joint = false, centred = false;
 };
 
-/// The node of rod `r` at a joint: its own, where another rod came before it and lies apart.
+/// The node of rod `r` at a joint: the joint's, or, if the joint is eccentric and `r` is its second
+/// rod, a new one.
 int node_at(const FootprintJoint& joint, int number, int r, std::vector<int>& first_rod, int& next,
             RodMesh& mesh) {
   int& first = first_rod[std::size_t(number)];
@@ -56,15 +57,15 @@ std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, std::vecto
   return stops;
 }
 
-/// Legs and tails shorter than d/4 have fewer edges than a segment; two centred edges need a node
-/// each.
+/// Number of edges between two stops. Legs and tails shorter than d/4 have fewer than segments; two
+/// centred edges need at least two.
 int edges_between(const Stop& a, const Stop& b, const Footprint& footprint, const RodMesh& mesh) {
   if (a.centred && b.centred) return std::max(2, mesh.edges_per_segment);
   if ((a.joint && b.joint) || !(b.at - a.at < footprint.spacing / 4)) return mesh.edges_per_segment;
   return std::max(1, int(std::lround(mesh.edges_per_segment / 4.0)));
 }
 
-/// Where the nodes between stop k - 1 and stop k of a rod lie.
+/// Positions of the nodes between stop k - 1 and stop k of a rod.
 std::vector<double> cuts_of(const std::vector<Stop>& stops, std::size_t k,
                             const Footprint& footprint, const RodMesh& mesh) {
   const std::size_t last = stops.size() - 1;
@@ -73,7 +74,7 @@ std::vector<double> cuts_of(const std::vector<Stop>& stops, std::size_t k,
     return edges_between(stops[n - 1], stops[n], footprint, mesh);
   };
   const auto piece = [&](std::size_t n) { return (stops[n].at - stops[n - 1].at) / pieces(n); };
-  // half the centred edge between two stretches; of a rod that ends there one is missing
+  // half the length of the edge centred between two stretches; at an end of a rod one is missing
   const auto half = [&](std::size_t before, std::size_t after) {
     const bool begins = before == 0 && !ring, ends = after > last && !ring;
     const double h = piece(begins        ? after
@@ -97,7 +98,8 @@ std::vector<double> cuts_of(const std::vector<Stop>& stops, std::size_t k,
   return cuts;
 }
 
-/// Puts the joint into the middle of each edge that is centred on it, where rods turn there.
+/// Moves the ends of each centred edge so that its joint is in its middle also if the rod has a
+/// corner there.
 template <class Points>
 void centre_edges(const RodMesh& mesh, Points& points) {
   const auto centre = [&](int before, int node, int after) {
@@ -137,7 +139,7 @@ void add_supports(const Footprint& footprint, int& next, RodMesh& mesh) {
   }
 }
 
-/// The curve of a rod of a network in space.
+/// Sets the heights of the nodes of a network that is drawn in space.
 void lay_heights(const Footprint& footprint, RodMesh& mesh) {
   mesh.height = Eigen::RowVectorXd::Zero(mesh.nodes());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -190,7 +192,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
-      // where rods meet in a joint the position is the joint's own
+      // joints get their position below
       const int node = mesh.rods[r][k];
       if (node >= mesh.joints) mesh.flat.col(node) = rod.at(mesh.position[r][k]);
     }
@@ -221,9 +223,9 @@ Eigen::Matrix3Xd drawn_nodes(const RodMesh& mesh, const FlatFrame& flat) {
   return nodes;
 }
 
-/// Hermite weights in the interval [s_k, s_k+1]; slopes by a quadratic through three nodes. At the
-/// ends of a rod, where a neighbour is missing, the slope is that of the quadratic through the
-/// three nearest.
+/// Weights of Hermite interpolation in the interval [s_k, s_k+1], with the slopes of a quadratic
+/// through three nodes: at an inner node the node and its neighbours, at an end of a rod the three
+/// nearest.
 MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
                                             const std::vector<double>& s, int k, double at,
                                             int to) {
@@ -236,8 +238,8 @@ MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
             {node[std::max(k - 1, 0)], node[k], node[k + 1], node[std::min(k + 2, last)]},
             {0, value0, value1, 0}};
   const bool has_before = k > 0, has_after = k + 1 < last;
-  // slope at a node = sum of chords weighted by the other side's length; a chord is (x1 -
-  // x0)/length
+  // slope at a node: mean of the chords (x1 - x0)/length on both sides, each weighted by the length
+  // of the other side
   const auto chord_before = [&](double fraction) {
     const double length = s[k] - s[k - 1];
     w.weight[0] -= fraction / length, w.weight[1] += fraction / length;
@@ -269,7 +271,7 @@ MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
 }
 
 MeshTransfer::MeshTransfer(const RodMesh& from, const RodMesh& to) : nodes_to_(to.nodes()) {
-  // edge points that belong to no rod have the same numbers on both meshes
+  // edge points that are on no rod have the same numbers on both meshes
   for (int end = 0; end < to.edge_points; ++end)
     if (to.end_of(end) == RodEnd::joined)
       stencils_.push_back({to.joints + end, {from.joints + end, 0, 0, 0}, {1, 0, 0, 0}});

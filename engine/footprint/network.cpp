@@ -20,7 +20,7 @@ constexpr double straight = 1e-9;
 // largest distance from a line at which points count as on it, over their extent
 constexpr double on_a_line = 1e-6;
 
-/// How often rods go through a point, and how often they end there.
+/// Numbers of rods that pass through a point and that end there.
 struct Visits {
   int passes = 0, ends = 0;
 };
@@ -79,12 +79,12 @@ std::vector<Visits> visits_of(const RodNetwork& network) {
   return visits;
 }
 
-/// What the points of a network are.
+/// The role of each point of a network: joint, support, end.
 class Roles {
  public:
   explicit Roles(const RodNetwork& network) : network_(network), visits_(visits_of(network)) {
     for (const std::vector<int>& rod : network.rods) {
-      // a rod that is alone has no joints but its inner points
+      // a single rod has all its inner points as joints
       if (network.rods.size() > 1 && is_straight(network.points, rod)) continue;
       corners_.insert(rod.begin() + 1, rod.end() - 1);
       if (is_ring(rod)) corners_.insert(rod.front());
@@ -115,7 +115,7 @@ class Roles {
  private:
   const RodNetwork& network_;
   std::vector<Visits> visits_;
-  std::set<int> corners_;  // inside rods that are not straight
+  std::set<int> corners_;  // inner points of rods that are not straight
 };
 
 Result<void> check_points(const RodNetwork& network, const Roles& roles) {
@@ -131,7 +131,7 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
   return {};
 }
 
-/// Sets the polyline of a rod, or its line if it is straight and in the plane.
+/// Sets the path of a rod, or its origin and direction if it is straight and in the plane.
 void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, FootprintRod& rod) {
   rod.origin = points.col(numbers.front()).head<2>();
   const bool in_plane = points(2, numbers).isZero(0);
@@ -147,7 +147,7 @@ void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, Footpr
   }
 }
 
-/// The constraint of a rod's start (of rod r at 2 r) or end.
+/// The constraint of an end; rod r starts at 2 r and ends at 2 r + 1.
 Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
   const std::vector<int>& rod = network.rods[std::size_t(end / 2)];
   const RodEnd kind = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
@@ -202,7 +202,7 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
 /// A support of a piece: a position, and the directions in which it is fixed.
 struct HeldPlace {
   Eigen::Vector3d at;
-  Eigen::Vector3d along;  ///< 1 or 0 of x, y, z
+  Eigen::Vector3d along;  ///< for x, y and z: 1 if it is fixed in that direction, else 0
 };
 
 /// The directions in which a support fixes its point: all, or those in which its spring has a

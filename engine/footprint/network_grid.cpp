@@ -1,4 +1,4 @@
-// Networks that are square grids bear their names.
+// Networks that are square grids get the families and indices of the grid.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,17 +10,18 @@
 namespace gridshell {
 namespace {
 
-constexpr double straight = 1e-9;   // of its length: how far a rod is off its axis
-constexpr double of_a_grid = 1e-6;  // of d: how far a line of a square grid is off its position
+constexpr double straight = 1e-9;   // allowed deviation of a rod's direction from u or v
+constexpr double of_a_grid = 1e-6;  // allowed distance of a line from its grid line, over d
 
-/// k of a line of the grid; none: it is none of its lines.
+/// Index of a line in the grid; empty: it is not on the grid.
 std::optional<int> line_number(Placement placement, double line, double spacing) {
   const double k = line / spacing - (placement == Placement::half ? 0.5 : 0);
   if (std::abs(k - std::round(k)) > of_a_grid) return std::nullopt;
   return int(std::lround(k));
 }
 
-/// A rod along u or v as one of the square grid, its positions growing with u or v.
+/// A rod along u or v as a rod of the square grid, with positions u or v; empty: it is not on the
+/// grid.
 std::optional<FootprintRod> grid_rod(const FootprintRod& rod, const Footprint& footprint) {
   const bool u = std::abs(rod.direction.y()) < straight, v = std::abs(rod.direction.x()) < straight;
   if (!rod.path.empty() || u == v || rod.begin == RodEnd::joined || rod.end == RodEnd::joined)

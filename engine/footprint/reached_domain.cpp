@@ -1,4 +1,4 @@
-// The part of a net that is marched over a surface, as its rods reach it.
+// The domain of a net that was marched over a surface: the part that its rods reach.
 
 #include <algorithm>
 #include <array>
@@ -24,10 +24,10 @@ class ReachedPart final : public Domain {
     };
     const double step = net_->chord() / 2;
     std::vector<Interval> pieces;
-    // positions along the line that one rod joins
+    // consecutive positions along the line that can be on one rod
     std::vector<std::pair<double, Eigen::Vector3d>> run;
     const auto end_run = [&] {
-      // next to an edge where the net is rough the rod would not be as long as its path
+      // near an edge the net may be rough, so that the rod would not be as long as its path
       const auto rough = [&](std::size_t a, std::size_t b) {
         return !net_->joined(run[a].second, run[b].second, step, exact);
       };
@@ -58,7 +58,7 @@ class ReachedPart final : public Domain {
   }
 
   Eigen::Matrix2Xd boundary(int points) const override {
-    // those of the traced ring that lie next to even positions along it
+    // points of the traced ring next to evenly spaced positions along it
     Eigen::Matrix2Xd ring(2, points);
     for (int k = 0; k < points; ++k) {
       const double at = ring_length_.back() * k / points;
@@ -71,25 +71,26 @@ class ReachedPart final : public Domain {
   double reach() const override { return (reach_ + 1) * net_->chord(); }
 
  private:
-  // how far the straight distance may be from as long as the rod, over that
+  // allowed relative difference between the distance of two points and the length of the rod there
   static constexpr double usual = 0.02, exact = 0.003;
-  static constexpr std::size_t most_trimmed = 6;  // half chords
-  static constexpr double shortest = 4;           // of a rod, chords: half the rods' spacing
+  static constexpr std::size_t most_trimmed = 6;  // half chords that are cut off a rough end
+  static constexpr double shortest = 4;           // chords of the shortest rod: half the spacing
 
   std::optional<Eigen::Vector3d> position(const Eigen::Vector2d& uv) const {
     const auto point = net_->reached(uv.x(), uv.y());
     return point ? std::optional(point->position) : std::nullopt;
   }
 
-  /// A rod that ends at a node of the grid, as there is none further out, ends a little before:
-  /// joints lie on nodes, and a leg would be all but nothing.
+  /// Moves the end of a rod inward if it is at a node of the grid. Joints are on nodes, so a leg to
+  /// a joint at such an end would have almost no length.
   double off_node(double s, int inward) const {
     constexpr double at_node = 0.02, before = 0.4;
     const double nodes = s / net_->chord();
     return std::abs(nodes - std::round(nodes)) < at_node ? s + inward * before * net_->chord() : s;
   }
 
-  /// How far a line continues from its position s, which is at p.
+  /// Position up to which a line continues from its position s, which is at p in space; `side` is 1
+  /// or -1.
   template <class Line>
   double end_from(const Line& on_line, double s, const Eigen::Vector3d& p, int side) const {
     const auto goes_on = [&](double distance) {
@@ -105,16 +106,16 @@ class ReachedPart final : public Domain {
     return s + side * inside;
   }
 
-  /// The outer edge, as it crosses the grid's lines (marching squares).
+  /// Computes the points where the outer edge crosses the lines of the grid (marching squares).
   void trace() {
     const MarchedGrid& grid = net_->grid();
     const double h = net_->chord();
     const auto known = [&](int i, int j) { return grid.known(i, j); };
-    // along the outermost node towards +u, whose next neighbour is not there
+    // start at the outermost known node in direction +u
     int i = 0;
     while (known(i + 1, 0)) ++i;
     std::array<int, 2> node{i, 0};
-    int heading = 0;  // to the node that is not there: +u, +v, -u, -v
+    int heading = 0;  // direction to the neighbour that is not known: +u, +v, -u, -v
     constexpr std::array<std::array<int, 2>, 4> headings{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     const auto start = node;
     const int start_heading = heading;
@@ -131,7 +132,7 @@ class ReachedPart final : public Domain {
         end = end_from(on_line, from, *p, 1);
       }
       ring_.push_back(on_line(end));
-      // to the left: around this node, along the side of the next one, or around the corner
+      // turn left around this node, continue along the next one, or go around a concave corner
       const auto [lu, lv] = headings[std::size_t((heading + 1) % 4)];
       if (!known(node[0] + lu, node[1] + lv)) {
         heading = (heading + 1) % 4;
@@ -148,9 +149,9 @@ class ReachedPart final : public Domain {
   }
 
   std::shared_ptr<const MarchedNet> net_;
-  int reach_ = 0;  // nodes
+  int reach_ = 0;  // largest |i| or |j| of a known node
   std::vector<Eigen::Vector2d> ring_;
-  std::vector<double> ring_length_;  // up to each of its points
+  std::vector<double> ring_length_;  // length of the ring up to each point, last its total length
 };
 
 }  // namespace

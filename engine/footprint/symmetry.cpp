@@ -22,7 +22,7 @@ double mirror_defect(const Eigen::Matrix3Xd& joints, const Eigen::Vector2d& norm
 
 namespace {
 
-constexpr double same_mm = 1e-3;  // positions of the flat mesh that are one
+constexpr double same_mm = 1e-3;  // distance up to which positions are equal
 
 using Place = std::array<long long, 3>;
 
@@ -36,7 +36,8 @@ Eigen::Vector3d drawn(const RodMesh& mesh, int node) {
   return {mesh.flat(0, node), mesh.flat(1, node), mesh.height.size() > 0 ? mesh.height[node] : 0};
 }
 
-/// Supports go where the parts that they support go, if springs as stiff are there.
+/// Adds the images of the supports of springs: those of the nodes that they pull. Empty if there is
+/// no spring of the same stiffness at an image.
 std::optional<std::vector<int>> with_supports(const RodMesh& mesh, const Eigen::Matrix3d& map,
                                               std::vector<int> image) {
   for (const MeshSpring& spring : mesh.springs) {
@@ -51,21 +52,21 @@ std::optional<std::vector<int>> with_supports(const RodMesh& mesh, const Eigen::
   return image;
 }
 
-/// Where each node goes, if each goes to the position of a node.
+/// The image of each node; empty if a node is not mapped to the position of a node.
 std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
   std::map<Place, int> node_at;
-  // supports have the position of what they support and go with it
+  // supports of springs have the positions of other nodes, so they are added at the end
   const int placed = mesh.nodes() - int(mesh.springs.size());
   for (int node = 0; node < placed; ++node) node_at[place_of(drawn(mesh, node))] = node;
   std::vector<int> image(std::size_t(mesh.nodes()));
   std::iota(image.begin(), image.end(), 0);
   if (map.isIdentity(0)) return image;
-  // nothing distinguishes nodes with the same position
+  // nodes with the same position cannot be distinguished
   if (int(node_at.size()) < placed) return std::nullopt;
   for (int node = 0; node < placed; ++node) {
     const auto [u, v, w] = place_of(map * drawn(mesh, node));
     int found = -1;
-    // round-off may put it next to the position it belongs to
+    // round-off may give a neighbour of the expected position
     const long long dw_most = mesh.height.size() > 0 ? 1 : 0;
     for (long long du = -1; du <= 1 && found < 0; ++du)
       for (long long dv = -1; dv <= 1 && found < 0; ++dv)
@@ -139,7 +140,7 @@ std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix
     auto image = image_of(mesh, symmetry.map);
     if (!image) continue;
     symmetry.image = std::move(*image);
-    // what is fixed goes to what is fixed
+    // fixed nodes must be mapped to fixed nodes
     if (!std::ranges::all_of(held, [&](int node) {
           return std::ranges::binary_search(sorted, symmetry.image[std::size_t(node)]);
         }))

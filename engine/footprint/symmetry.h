@@ -1,4 +1,4 @@
-// Mirror planes of a shape.
+// Symmetries of shapes and meshes: mirror planes, and maps of a mesh onto itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,29 +9,31 @@
 
 namespace gridshell {
 
-/// Largest distance between the mirror image of a joint in the vertical plane through the z-axis
-/// with the horizontal unit `normal` and the joint nearest to it: 0 where the plane is one of the
-/// shape's. `joints`: 3 x n, mm.
+/// Deviation of a shape from mirror symmetry, mm: the largest distance between the mirror image of
+/// a joint and the joint nearest to the image. The mirror is the vertical plane through the z-axis
+/// with the horizontal unit vector `normal`. `joints`: 3 x n, mm.
 double mirror_defect(const Eigen::Matrix3Xd& joints, const Eigen::Vector2d& normal);
 
-// The symmetries that a shell's footprint and boundary have in common, as maps of its mesh onto
-// itself: those of the square, up and down among them.
+// Common symmetries of a shell's footprint and boundary, as maps of its mesh onto itself.
+// Considered are those of the square, with maps that invert z.
 
 /// Nodes that the boundary fixes: joints, edge points, ghosts.
 std::vector<int> held_nodes(const RodMesh& mesh);
 
-/// The sixteen maps of space that leave the square lattice about the z-axis what it is: signed
-/// permutations of x and y, then the same with z turned over. The identity is the first.
+/// The sixteen linear maps of space that map the square lattice about the z-axis onto itself:
+/// signed permutations of x and y, then the same with z inverted. The identity is the first.
 const std::vector<Eigen::Matrix3d>& square_symmetries();
 
-/// Which of some points each of them goes to under a map of the plane; nothing where one is
-/// further than `within_mm` from all. For a few hundred points: each looks at all.
+/// For each point the index of the point that is nearest to its image under a linear map; empty if
+/// an image is further than `within_mm` from all points. The time grows with the square of the
+/// number of points.
 std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
                                           const Eigen::Matrix2d& map, double within_mm);
 
-/// A map of a mesh onto itself: p goes to M (p - c) + c, node k to the position of node image[k].
+/// A map of a mesh onto itself: p is mapped to M (p - c) + c, node k to the position of node
+/// image[k].
 struct MeshSymmetry {
-  int index = 0;  ///< of square_symmetries()
+  int index = 0;  ///< index into square_symmetries()
   Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::vector<int> image;
@@ -42,15 +44,16 @@ struct MeshSymmetry {
   Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& x) const;
 };
 
-/// Those of the sixteen that map the flat mesh onto itself and the ends of its rods, where `ends`
-/// (3 x nodes or more columns, mm; what is free is ignored) fixes them, onto one another. The
-/// identity is the first.
+/// The symmetries of a mesh with its boundary: those of the sixteen maps that map the flat mesh
+/// onto itself and the fixed nodes at their prescribed positions onto one another. `ends` has the
+/// prescribed positions, at least 3 x nodes, mm; columns of free nodes are ignored. The identity is
+/// the first.
 std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends);
 
-/// The part of a shape that all of these leave as it is: the mean of its images under a group.
+/// The symmetric part of a shape: the mean of its images under a group.
 Eigen::Matrix3Xd symmetric_part(const Eigen::Matrix3Xd& x, const std::vector<MeshSymmetry>& group);
 
-/// Largest distance, mm, between a joint of `x` and the one of `y` where `symmetry` puts y.
+/// Largest distance, mm, between the joints of `x` and those of the image of `y` under `symmetry`.
 double distance_under(const MeshSymmetry& symmetry, const Eigen::Matrix3Xd& x,
                       const Eigen::Matrix3Xd& y);
 

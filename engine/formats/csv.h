@@ -1,4 +1,4 @@
-// CSV text (RFC 4180), numbers as the shortest that read back bit for bit.
+// CSV text (RFC 4180). Numbers have the fewest digits that read back bit for bit.
 #pragma once
 
 #include <string>
@@ -11,15 +11,16 @@
 
 namespace gridshell::record {
 
-/// One CSV file as it grows (RFC 4180, "\n" at the end of a line).
+/// Writes a CSV file (RFC 4180, "\n" at the end of a line), cell by cell.
 class CsvWriter {
  public:
   void cell(const char* text) { cell(std::string(text)); }
-  /// A bool is 0 or 1.
+  /// A bool is written as 0 or 1.
   void cell(int value);
+  /// NaN gives an empty cell.
   void cell(double value);
   void cell(std::string_view value);
-  /// What has a text of its own.
+  /// An object with a function text().
   template <class Name>
   requires requires(const Name& name) { name.text(); }
   void cell(const Name& name) { cell(std::string_view(name.text())); }
@@ -35,12 +36,13 @@ class CsvWriter {
     (cell(cells), ...);
     end_line();
   }
-  /// What `fields` (core/fields.h) says of a row: the names, or the members.
+  /// A line with the names of a row's members, as `fields` (core/fields.h) lists them.
   template <class Row>
   void names_of(const Row& row) {
     fields(row, [&](const char* name, const auto&) { cell(name); });
     end_line();
   }
+  /// A line with the values of a row's members.
   template <class Row>
   void members_of(const Row& row) {
     fields(row, [&](const char*, const auto& value) { cell(value); });
@@ -54,10 +56,10 @@ class CsvWriter {
   bool first_ = true;
 };
 
-/// The cells of a text of RFC 4180, a row a line.
+/// The cells of a text of RFC 4180: one list per line.
 std::vector<std::vector<std::string>> csv_cells(std::string_view text);
 
-/// The text of a table whose columns `fields` names; an unknown number is an empty cell.
+/// The text of a table whose columns `fields` lists; an unknown number is an empty cell.
 template <class Row>
 std::string csv_table(const std::vector<Row>& rows) {
   CsvWriter csv;

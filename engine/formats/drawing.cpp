@@ -13,7 +13,7 @@ namespace {
 
 // ----------------------------------------------------------------------------------------- DXF --
 
-/// Pairs of a group code and its value, one line each.
+/// Writes DXF: pairs of a group code and its value, each on a line of its own.
 class Dxf {
  public:
   void text(int code, const std::string& value) {
@@ -108,7 +108,7 @@ Eigen::AlignedBox2d box_of(const Drawing& drawing) {
       box.extend(Eigen::Vector2d(circle.centre - half));
     }
     for (const DrawnText& text : layer.texts) {
-      // a letter is about as wide as it is high at most
+      // a letter is at most about as wide as it is high
       const Eigen::Vector2d half(0.5 * text.height_mm * double(text.text.size()), text.height_mm);
       box.extend(Eigen::Vector2d(text.at + half));
       box.extend(Eigen::Vector2d(text.at - half));

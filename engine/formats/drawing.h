@@ -8,23 +8,26 @@
 
 namespace gridshell::exports {
 
+/// A polyline.
 struct DrawnLine {
   std::vector<Eigen::Vector3d> points;  ///< two or more; z is 0 in a flat drawing
   bool closed = false;
 };
 
+/// A circle.
 struct DrawnCircle {
   Eigen::Vector2d centre;
   double radius_mm = 0;
 };
 
+/// A text.
 struct DrawnText {
-  Eigen::Vector2d at;  ///< its middle
+  Eigen::Vector2d at;  ///< position of its middle
   double height_mm = 0;
   std::string text;
 };
 
-/// What is cut, marked or read together, in one colour.
+/// The lines, circles and texts of one purpose (cut, mark, label) in one colour.
 struct Layer {
   std::string name;
   int colour = 7;  ///< AutoCAD's number: 1 red, 3 green, 5 blue, 7 black
@@ -33,17 +36,18 @@ struct Layer {
   std::vector<DrawnText> texts = {};
 };
 
+/// A drawing in layers.
 struct Drawing {
   std::string title;
   std::vector<Layer> layers;
 };
 
-/// DXF of release 12, which every drawing program reads: LINE, POLYLINE, CIRCLE and TEXT, a layer
-/// each, $INSUNITS 4 (mm). Numbers to 1e-9 mm.
+/// The drawing as DXF of release 12, which every drawing program reads: LINE, POLYLINE, CIRCLE and
+/// TEXT in their layers, $INSUNITS 4 (mm). Numbers are rounded to 1e-9 mm.
 std::string to_dxf(const Drawing& drawing);
 
-/// SVG at its true size (width and height in mm), y turned down, a group a layer. Depth is left
-/// out.
+/// The drawing as SVG at its true size (width and height in mm), with y downwards and one group per
+/// layer. z is ignored.
 std::string to_svg(const Drawing& drawing);
 
 }  // namespace gridshell::exports

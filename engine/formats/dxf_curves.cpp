@@ -9,11 +9,11 @@ namespace gridshell::preset {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr int most_pieces = 2000;  // of one span
+constexpr int most_pieces = 2000;  // in one span
 
 using Curve = std::function<Eigen::Vector3d(double)>;
 
-/// By how much a piece of a curve turns, seen at some of its points.
+/// Angle by which the direction of a piece of a curve changes, estimated from some of its points.
 double turn_of(const Curve& at, double from, double to) {
   constexpr int seen = 16;
   double turn = 0;

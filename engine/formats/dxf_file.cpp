@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr std::size_t most_entities = 200000, most_insertions = 200000;
 constexpr int deepest = 16;  // blocks in blocks
 
-/// What is never a rod; its attributes and corners are parts of others.
+/// Whether entities of this kind are never rods.
 bool is_mark(const std::string& kind) {
   static constexpr std::array<std::string_view, 24> marks{
       "TEXT",  "MTEXT", "RTEXT", "ATTDEF", "ATTRIB",      "POINT",      "DIMENSION", "LEADER",
@@ -45,7 +45,7 @@ Eigen::Matrix3d axes_of(const RawEntity& raw) {
   return axes;
 }
 
-/// Makes entities of what the file has, blocks where they are inserted.
+/// Converts the entities of a file, with those of blocks at each insertion.
 class Gathering {
  public:
   Gathering(const RawDrawing& raw, const std::string& name) : raw_(raw), name_(name) {}
@@ -63,7 +63,7 @@ class Gathering {
       entity.kind = raw.kind;
       entity.line = raw.line;
       entity.layer = lower(raw.text(8));
-      // what a block has on layer 0 is on that of its insertion
+      // entities of a block on layer 0 are on the layer of the insertion
       if (depth > 0 && (entity.layer == "0" || entity.layer.empty())) entity.layer = layer;
       entity.space = space;
       const auto shown = raw_.layers.find(entity.layer);
@@ -148,10 +148,10 @@ class Gathering {
     else if (raw.kind == "SPLINE")
       draw_spline(raw, entity);
     else
-      entity.use = EntityUse::mark;  // the vertex of no polyline
+      entity.use = EntityUse::mark;  // a vertex outside a polyline
   }
 
-  /// Corners in a plane, arcs between those that have a bulge.
+  /// Adds corners in a plane, with an arc after each corner that has a bulge.
   static void draw_corners(const std::vector<Vector3d>& corners, const std::vector<double>& bulges,
                            bool closed, const Eigen::Matrix3d& axes, DrawnEntity& entity) {
     entity.closed = closed;
@@ -187,13 +187,13 @@ class Gathering {
     std::vector<Vector3d> corners;
     std::vector<double> bulges;
     for (const RawEntity& vertex : raw.parts) {
-      if (vertex.kind != "VERTEX" || (vertex.flags(70) & 16)) continue;  // of a spline's frame
+      if (vertex.kind != "VERTEX" || (vertex.flags(70) & 16)) continue;  // a spline's control point
       corners.push_back(vertex.point(10, {0, 0, in_space ? 0 : raw.number(30)}));
       bulges.push_back(in_space ? 0 : vertex.number(42));
     }
     draw_corners(corners, bulges, flags % 2 == 1, in_space ? Eigen::Matrix3d::Identity() : axes,
                  entity);
-    // what a curve or spline was fitted to has many points
+    // a polyline that a program fitted as a curve or spline has many points
     if (flags & (2 | 4)) std::ranges::fill(entity.sampled, true);
     if (!entity.sampled.empty()) entity.sampled.front() = entity.sampled.back() = false;
   }
@@ -237,8 +237,12 @@ class Gathering {
   }
 
   static void draw_spline(const RawEntity& raw, DrawnEntity& entity) {
-    SplineData spline{int(raw.number(71, 3)), raw.numbers(40), raw.numbers(41),
-                      raw.points(10),         raw.points(11),  {}};
+    SplineData spline{int(std::clamp(raw.number(71, 3), 0.0, 1000.0)),
+                      raw.numbers(40),
+                      raw.numbers(41),
+                      raw.points(10),
+                      raw.points(11),
+                      {}};
     if (!raw.text(12).empty() && !raw.text(13).empty())
       spline.tangents = {raw.point(12), raw.point(13)};
     append(entity, spline_points(spline), true);
@@ -253,7 +257,7 @@ class Gathering {
   std::size_t insertions_ = 0;
 };
 
-/// $INSUNITS: the names of units by their numbers; none: no unit, or one of none of ours.
+/// Names and lengths in mm of the units of $INSUNITS, by their numbers; empty: no unit.
 constexpr std::array<std::pair<const char*, double>, 15> drawing_units{{{"", 0},
                                                                         {"in", 25.4},
                                                                         {"ft", 304.8},

@@ -10,39 +10,39 @@
 
 namespace gridshell::preset {
 
-/// Where something of a drawing is.
+/// The space of a drawing that an entity is in.
 enum class DrawingSpace {
-  model,   ///< the drawing itself
-  paper,   ///< its sheets
-  hidden,  ///< model space, on a frozen or switched-off layer, or invisible
+  model,   ///< model space: the drawing itself
+  paper,   ///< paper space: sheets
+  hidden,  ///< model space, but invisible or on a frozen or switched-off layer
 };
 
 /// Whether an entity can be a rod.
 enum class EntityUse {
-  curve,    ///< it is a polyline, or was made one
-  mark,     ///< a text, a point, a dimension, ...: it never is one
-  refused,  ///< it may be, and is not understood (a multiline, a mesh, a kind that is not known)
+  curve,    ///< it is a polyline or was converted to one
+  mark,     ///< it is never a rod: a text, a point, a dimension, ...
+  refused,  ///< it may be a rod, but is not supported: a multiline, a mesh, an unknown kind
 };
 
-/// An entity of a drawing; entities of blocks are placed where the blocks are inserted.
+/// An entity of a drawing. The entities of a block appear once for each insertion of the block.
 struct DrawnEntity {
   std::string kind;   ///< "LINE"
-  int line = 0;       ///< of the file, where it begins
-  std::string layer;  ///< in small letters
+  int line = 0;       ///< line of the file at which it starts
+  std::string layer;  ///< name of its layer in lower case
   DrawingSpace space = DrawingSpace::model;
   EntityUse use = EntityUse::curve;
-  std::string why = {};                              ///< it is refused
-  std::vector<Eigen::Vector3d> points = {};          ///< of a curve, in the unit of the drawing
-  std::vector<char> sampled = {};                    ///< of each point: it lies on a curved piece
-  bool closed = false;                               ///< its first point follows its last
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of a circle
+  std::string why = {};                      ///< reason if it is refused
+  std::vector<Eigen::Vector3d> points = {};  ///< points of a curve, in the drawing's unit
+  std::vector<char> sampled = {};            ///< for each point: whether it is on a curved piece
+  bool closed = false;                       ///< whether the last point joins the first
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of a circle
 };
 
 /// A drawing.
 struct DxfDrawing {
   std::vector<DrawnEntity> entities;
-  double unit_mm = 0;     ///< of $INSUNITS; 0: it names none
-  std::string unit = {};  ///< "in"
+  double unit_mm = 0;     ///< the unit $INSUNITS in mm; 0: the drawing names none
+  std::string unit = {};  ///< name of the unit: "in"
 };
 
 /// Reads a text DXF drawing of any release: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -29,12 +30,12 @@ Result<std::vector<DxfGroup>> groups_of(std::string_view bytes, const std::strin
   return groups;
 }
 
-/// Whether a code has a number as its value: coordinates, lengths, angles.
+/// Whether the value of a code is a number: a coordinate, a length, an angle.
 bool is_number(int code) {
   return (code >= 10 && code < 60) || (code >= 70 && code < 80) || (code >= 210 && code < 240);
 }
 
-/// Puts the groups of a file into sections and entities.
+/// Sorts the groups of a file into sections and entities.
 class Sections {
  public:
   explicit Sections(const std::string& name) : name_(name) {}
@@ -51,7 +52,7 @@ class Sections {
         open_ = nullptr;
       } else if (section_ == "HEADER") {
         if (group.value == "$INSUNITS" && k + 1 < groups.size())
-          drawing_.unit = int(number_of(groups[k + 1].value).value_or(0));
+          drawing_.unit = int(std::clamp(number_of(groups[k + 1].value).value_or(0), 0.0, 1000.0));
       } else if (group.code == 0) {
         begin(group);
       } else if (open_) {

@@ -16,7 +16,7 @@
 namespace gridshell::record::hdf5 {
 namespace {
 
-constexpr std::size_t longest_text = 65536;  // of an attribute
+constexpr std::size_t longest_text = 65536;  // bytes of an attribute
 
 bool stored_plainly(hid_t set) {
   const Handle how(H5Dget_create_plist(set), H5Pclose);
@@ -25,7 +25,8 @@ bool stored_plainly(hid_t set) {
          H5Pget_nfilters(how) == 0;
 }
 
-// numbers for numbers, lists for lists; of a struct every member by name
+// whether values of a type can be read as another: numbers as numbers, lists as lists, structs if
+// all their members by name can
 bool fits(hid_t found, hid_t requested) {
   const auto kind = H5Tget_class(found);
   if (kind != H5Tget_class(requested)) return false;
@@ -60,7 +61,7 @@ Reader::Reader(std::string_view bytes) : file_bytes_(bytes.size()) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, 65536, false);
   H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());
-  // no file, but files of one name are taken for one
+  // no file is opened by this name, but the library takes open files of equal names for the same
   const std::string name = fmt::format("image {}", static_cast<const void*>(this));
   file_ = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   check(file_, "file");
@@ -70,7 +71,7 @@ Reader::Reader(const std::filesystem::path& file) {
   std::error_code error;
   file_bytes_ = std::filesystem::file_size(file, error);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // nobody writes to it, and not every disk has locks
+  // no lock: nobody writes to the file, and not every file system has locks
   H5Pset_file_locking(access, false, true);
   file_ = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   check(error ? hid_t(-1) : hid_t(file_), "file");
@@ -103,7 +104,7 @@ Handle Reader::dataset(const std::string& name, hid_t type) {
   const Handle found(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
   if (!fits(found, type)) return refuse("is of another type");
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  // what has no fixed length is a reference of 16 bytes
+  // lists and texts of variable length are stored as references of 16 bytes
   const auto kind = H5Tget_class(found);
   const bool referred = kind == H5T_VLEN || kind == H5T_STRING;
   const std::uintmax_t each = referred ? 16 : H5Tget_size(found);
@@ -174,7 +175,7 @@ std::string Reader::text_attribute(const std::string& object, const char* name) 
   if (found < 0) return {};
   const Handle type(H5Aget_type(found), H5Tclose);
   if (H5Tis_variable_str(type) > 0) return {};
-  // one more, for text that nothing ends
+  // one more byte, since the text may have no zero at its end
   std::string text(H5Tget_size(type) + 1, '\0');
   check(H5Aread(found, type, text.data()), object + "." + name);
   return text.c_str();
@@ -224,7 +225,7 @@ namespace {
 
 constexpr int seconds = 20;
 
-/// Bytes of address space that this process has; 0 where nobody says.
+/// Address space of this process in bytes; 0: not known.
 std::uint64_t bytes_in_use() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -242,7 +243,8 @@ void restrict_memory() {
   ::setrlimit(RLIMIT_AS, &space);
 }
 
-// no words, no core file, no end but its own
+// limits memory and time, resets signal handlers, and suppresses messages and core files; the
+// subprocess ends with its parent
 void restrict_subprocess() {
   restrict_memory();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -255,8 +257,9 @@ void restrict_subprocess() {
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
 }
 
-/// As fork(), the library's lock being this thread's own: inside a call of it no other thread is,
-/// so that the child finds it free. (The C library frees its own locks in a child.)
+/// Calls fork() from inside a call of the HDF5 library: this thread then has the library's lock, so
+/// that no other thread has it and the child can use the library. (The C library releases its own
+/// locks in a child.)
 pid_t forked_with_library() {
   pid_t child = -1;
   const auto fork_now = [](hid_t, const char*, void* id) {
@@ -271,7 +274,7 @@ pid_t forked_with_library() {
 
 Result<void> read_in_subprocess(const std::function<void()>& reading) {
   const pid_t child = forked_with_library();
-  // without a process to spare it is read as it is
+  // if there can be no subprocess, the trial is left out
   if (child < 0) return {};
   if (child == 0) {
     restrict_subprocess();

@@ -11,7 +11,7 @@
 namespace gridshell::record::hdf5 {
 namespace {
 
-/// H5Ewalk2 callback: keeps the innermost description
+/// Callback of H5Ewalk2 that stores the innermost description.
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* out) {
   // no exception may pass through the library: a reason that does not fit into memory is left out
   try {
@@ -27,8 +27,9 @@ std::string innermost_reason() {
   return reason.empty() ? "unknown failure in the HDF5 library" : reason;
 }
 
+/// A file that the driver has opened.
 struct Open {
-  H5FD_t shared{};  // first: the library sees only this
+  H5FD_t shared{};  // must be the first member: the library knows only this one
   Stream* stream = nullptr;
   haddr_t allocated = 0, written = 0;
 };
@@ -75,7 +76,7 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void*
     if (got <= 0) break;
     to += got, at += haddr_t(got), size -= std::size_t(got);
   }
-  // past the end there are no data yet
+  // bytes past the end of the file are zero
   std::memset(to, 0, size);
   return 0;
 }
@@ -110,7 +111,7 @@ hid_t driver() {
     H5FD_class_t driver{};
 #ifdef H5FD_CLASS_VERSION
     driver.version = H5FD_CLASS_VERSION;
-    driver.value = 512;  // the first that is nobody's
+    driver.value = 512;  // the first number that is not reserved
 #endif
     driver.name = "gridshell_stream";
     driver.maxaddr = haddr_t(1) << 62;
@@ -184,7 +185,7 @@ bool File::check(hid_t result, const std::string& at) {
 Handle access_of(Stream& stream) {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Stream* const info = &stream;
-  // with the library's own driver it would write to a file of that name
+  // after an error no access at all: with its default driver the library would create a file
   return H5Pset_driver(access, driver(), &info) < 0 ? Handle() : std::move(access);
 }
 
@@ -197,12 +198,12 @@ Writer::Writer(const std::string& name) {
 Writer::Writer(Stream& stream) { open("stream", access_of(stream)); }
 
 void Writer::open(const std::string& name, hid_t access) {
-  // times of making would make equal runs differ
+  // no times of creation: equal runs give equal bytes
   no_times_ = Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(no_times_, false);
   no_group_times_ = Handle(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_obj_track_times(no_group_times_, false);
-  // no driver of ours touches a file of this name
+  // neither driver creates a file of this name on the disk
   file_ = Handle(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   check(file_, "file");
 }

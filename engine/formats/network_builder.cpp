@@ -1,4 +1,4 @@
-// Joints that a file lists: points of several rods that lie apart become one.
+// Joints that a file lists: points of several rods at different positions become one.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr double farthest = 0.25;  // of the shortest segment of rod at a joint
+constexpr double farthest = 0.25;  // largest displacement, over the shortest segment at a joint
 
 using Coordinates = std::vector<double>;
 
@@ -28,7 +28,7 @@ Coordinates mean_of(const std::vector<int>& points, const Points& places) {
   return mean;
 }
 
-/// The shortest segment of rod, for every joint, that begins or ends at one of its points.
+/// For every joint the length of the shortest segment of a rod at one of its points.
 std::vector<double> shortest_beside(const NetworkData& network, const std::vector<int>& joint_of,
                                     std::size_t joints) {
   std::vector<double> shortest(joints, std::numeric_limits<double>::infinity());
@@ -60,7 +60,7 @@ std::set<int> ends_alone(const std::vector<std::vector<int>>& rods) {
 }  // namespace
 
 Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::string& at) {
-  // those at one position are one already
+  // points at equal positions were merged before
   std::set<int> once;
   std::erase_if(points, [&](int point) { return !once.insert(point).second; });
   for (const int point : points)
@@ -73,7 +73,8 @@ Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::strin
   return {};
 }
 
-/// Every point is of a rod, and no rod meets a joint twice but to close a ring.
+/// Checks that every point is on a rod and that no rod has two points of a joint, except to close a
+/// ring.
 Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const {
   std::set<int> on_rods;
   for (std::size_t r = 0; r < network_.rods.size(); ++r) {
@@ -100,7 +101,7 @@ Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const 
   return {};
 }
 
-/// No point moves further to its joint than a part of the rods there.
+/// Checks that no point is moved further than a fraction of the rods' segments at its joint.
 Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const {
   const auto shortest = shortest_beside(network_, joint_of, joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -117,7 +118,7 @@ Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const
   return {};
 }
 
-/// The first point of a joint replaces the others.
+/// Replaces the points of each joint by its first one.
 void NetworkBuilder::rename(const std::vector<int>& joint_of) {
   const auto name = [&](int point) {
     const int joint = joint_of[std::size_t(point)];
@@ -130,7 +131,7 @@ void NetworkBuilder::rename(const std::vector<int>& joint_of) {
   std::set<int> free, supported;
   for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));
   for (const int point : network_.free) free.insert(name(point));
-  // rods that only end at a joint support one another
+  // rods that only end at a joint are joined to each other there, not fixed
   const std::set<int> ends = ends_alone(network_.rods);
   for (const Joint& joint : joints_) {
     const int point = joint.points.front();

@@ -1,4 +1,4 @@
-// Lines of a drawing that meet end to end are one rod, and points that say nothing are left out.
+// Joins lines of a drawing that meet end to end to rods, and removes points that are not needed.
 
 #include <fmt/format.h>
 
@@ -17,20 +17,20 @@ namespace gridshell::preset {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr std::size_t most_ends = 100;  // at one point
-constexpr double turn_a_piece_deg = 3;  // of a curve
+constexpr std::size_t most_ends = 100;  // largest number of ends at one point
+constexpr double turn_a_piece_deg = 3;  // angle between two pieces of a curve
 constexpr double straight_deg = 0.1;
 
-/// By how much a polyline turns at its middle point, rad.
+/// Angle by which a polyline turns at its middle point, rad.
 double turn_at(const NetworkData& network, int before, int at, int after) {
   const Eigen::Vector3d in = place_of(network, at) - place_of(network, before),
                         out = place_of(network, after) - place_of(network, at);
   return std::atan2(in.cross(out).norm(), in.dot(out));
 }
 
-/// The start (2 r) or end (2 r + 1) of rod r.
+/// An end of a line: `number` is 2 r for the start and 2 r + 1 for the end of line r.
 struct LineEnd {
-  int number, point, before;  ///< the point next to it
+  int number, point, before;  ///< its point, and the point next to it
 };
 
 std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
@@ -44,7 +44,7 @@ std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
   return ends;
 }
 
-/// The end in which each end continues; -1: none.
+/// For each end the end of another line that continues it; -1: none.
 Result<std::vector<int>> continuations(const NetworkData& network,
                                        const std::vector<std::string>& places) {
   std::vector<int> partner(2 * network.rods.size(), -1);
@@ -68,7 +68,7 @@ Result<std::vector<int>> continuations(const NetworkData& network,
   return partner;
 }
 
-/// How many pieces a curve between points that stay needs.
+/// Number of pieces that a curve between two points `first` and `last` of a rod needs.
 std::size_t pieces_of(const NetworkData& network, const std::vector<int>& rod, std::size_t first,
                       std::size_t last) {
   double turn = 0;
@@ -87,7 +87,7 @@ Result<int> NetworkBuilder::join_in_line() {
   return met;
 }
 
-/// Lines become rods, `partner` being of each end the one that it continues in; -1: none.
+/// Joins lines to rods; `partner` has for each end the end that continues it; -1: none.
 void NetworkBuilder::chain(const std::vector<int>& partner) {
   std::vector<std::vector<int>> rods;
   std::vector<std::string> places;

@@ -1,4 +1,4 @@
-// Rods of a drawing are joined wherever they cross or touch.
+// Joins the rods of a drawing wherever they cross or touch.
 
 #include <fmt/format.h>
 
@@ -15,15 +15,11 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr std::size_t most_stretches = 40000;  // each is compared with each
+constexpr std::size_t most_stretches = 40000;  // every two may be compared
 
-Eigen::Vector3d place_of(const std::vector<double>& point) {
-  return {point[0], point[1], point[2]};
-}
-
-/// Two points of a rod that follow one another.
+/// The straight segment between two neighbouring points of a rod.
 struct Stretch {
-  std::size_t rod, first;  ///< of which rod, and after which of its points
+  std::size_t rod, first;  ///< the rod, and the position of the first point in it
   int from, to;
   Eigen::Vector3d begin, end;
 
@@ -31,7 +27,7 @@ struct Stretch {
   Eigen::Vector3d at(double fraction) const { return begin + fraction * vector(); }
   double length() const { return vector().norm(); }
   double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
-  /// Whether they reach over one another along an axis.
+  /// Whether the two overlap along axis k, within a distance `by`.
   bool near(const Stretch& other, int k, double by) const {
     return std::min(begin[k], end[k]) <= std::max(other.begin[k], other.end[k]) + by &&
            std::min(other.begin[k], other.end[k]) <= std::max(begin[k], end[k]) + by;
@@ -39,19 +35,20 @@ struct Stretch {
   double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
 };
 
-/// A point to come into a stretch, at a fraction of its length.
+/// A point that is inserted into a segment, at a fraction of its length.
 struct Cut {
   std::size_t rod, first;
   double at;
   int point;
 };
 
-/// Where two segments meet, as fractions of their lengths; none: nowhere, or they are parallel.
+/// The point where two segments meet, as fractions of their lengths; empty: they do not, or are
+/// parallel.
 std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch& b, double near) {
   const Eigen::Vector3d vector_a = a.vector(), vector_b = b.vector(), apart = b.begin - a.begin;
   const Eigen::Vector3d normal = vector_a.cross(vector_b);
   if (!(normal.norm() > 1e-9 * a.length() * b.length())) return std::nullopt;
-  // seen along the axis that is nearest to their normal, of a drawing in the plane z
+  // solved in the plane of the two axes across the one nearest to their normal: z for flat drawings
   const auto beyond = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
   const int view = !beyond(0) && !beyond(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
   const int x = (view + 1) % 3, y = (view + 2) % 3;
@@ -69,14 +66,13 @@ std::vector<Stretch> stretches_of(const NetworkData& network) {
   for (std::size_t r = 0; r < network.rods.size(); ++r)
     for (std::size_t k = 1; k < network.rods[r].size(); ++k) {
       const int from = network.rods[r][k - 1], to = network.rods[r][k];
-      all.push_back({r, k - 1, from, to, place_of(network.points[std::size_t(from)]),
-                     place_of(network.points[std::size_t(to)])});
+      all.push_back({r, k - 1, from, to, place_of(network, from), place_of(network, to)});
     }
   std::ranges::sort(all, {}, &Stretch::low);
   return all;
 }
 
-/// Puts the points of cuts into their rods.
+/// Inserts the points of cuts into their rods.
 void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
   std::ranges::sort(cuts, {}, [](const Cut& c) { return std::tuple(c.rod, c.first, c.at); });
   auto next = cuts.begin();
@@ -92,7 +88,7 @@ void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
   }
 }
 
-/// How far two parallel segments lie on one another; 0: they do not.
+/// Length over which two segments lie on one another; at most 0: they do not.
 double overlap(const Stretch& a, const Stretch& b) {
   constexpr double alike = 1e-6;
   const Eigen::Vector3d along = a.vector().normalized();
@@ -132,7 +128,7 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
     for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
       if (rods[std::size_t(end)] != 1) continue;
       std::vector<double>& place = network_.points[std::size_t(end)];
-      const Eigen::Vector3d at = place_of(place);
+      const Eigen::Vector3d at = place_of(network_, end);
       const Stretch* nearest = nullptr;
       double least = near_mm_;
       for (const Stretch& one : all) {
@@ -162,7 +158,7 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
       const Stretch &a = all[k], &b = all[m];
       if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
       if (const double length = overlap(a, b); length > near_mm_)
-        return invalid("{}: lies on what is drawn at {} over {:.4g} mm, expected one of them",
+        return invalid("{}: got a rod on the rod at {}, over {:.4g} mm, expected one of them",
                        places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
       if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
       const auto met = meeting(a, b, near_mm_);

@@ -1,4 +1,4 @@
-// Networks as drawings: Wavefront OBJ and DXF.
+// Reads networks from drawings (Wavefront OBJ, DXF) and from the edges of meshes (PLY, OFF).
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/dxf_file.h"
 #include "engine/formats/network_file.h"
@@ -21,11 +22,7 @@
 namespace gridshell::preset {
 namespace {
 
-std::string counted(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-/// What is made of every drawing once its lines are in the builder.
+/// Makes the network from the lines of a drawing that are in the builder.
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
                            const NetworkOptions& options, FileReport& report) {
   if (options.linkage) {
@@ -42,7 +39,7 @@ Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std
   return builder.take(name);
 }
 
-/// Whether a circle marks a point of the lines: about it, and small compared with the drawing.
+/// Recognises circles that mark points: small compared with the drawing, with the centre on a line.
 class Marks {
  public:
   explicit Marks(const std::vector<const DrawnEntity*>& drawn) : drawn_(drawn) {
@@ -52,8 +49,9 @@ class Marks {
 
   bool holds(const DrawnEntity& circle) const {
     constexpr double small = 0.1;
+    if (circle.kind != "CIRCLE" || circle.points.empty()) return false;
     const double radius = (circle.points.front() - circle.centre).norm();
-    if (circle.kind != "CIRCLE" || radius > small * box_.sizes().maxCoeff()) return false;
+    if (radius > small * box_.sizes().maxCoeff()) return false;
     return std::ranges::any_of(drawn_, [&](const DrawnEntity* one) {
       if (one->kind == "CIRCLE") return false;
       for (std::size_t k = 1; k < one->points.size(); ++k)
@@ -76,7 +74,7 @@ class Marks {
   Eigen::AlignedBox3d box_;
 };
 
-/// "2 circles and 1 line on other layers", by why they are left out.
+/// Counts the entities that are not used, by reason: "2 circles, 1 line on other layers".
 class LeftOut {
  public:
   void add(const std::string& why, const std::string& kind) { ++counts_[why][name_of(kind)]; }
@@ -98,8 +96,8 @@ class LeftOut {
   std::map<std::string, std::map<std::string, std::size_t>> counts_;
 };
 
-/// The entities of a drawing that are lines, where there is a layer of that name on it alone.
-/// Errors (bad_input): one that may be a line and is not understood.
+/// The entities of a drawing that are used as lines; if there is a layer of the name `layer`, only
+/// those on it. Errors (bad_input): an entity that may be a line and is not supported.
 Result<std::vector<const DrawnEntity*>> choose(const DxfDrawing& drawing, const std::string& name,
                                                const std::string& layer, LeftOut& left_out) {
   const bool by_layer = std::ranges::any_of(drawing.entities, [&](const DrawnEntity& one) {
@@ -130,10 +128,10 @@ Result<std::vector<const DrawnEntity*>> choose(const DxfDrawing& drawing, const 
   return rods;
 }
 
-/// The unit of a drawing in mm, and how it is known.
+/// The unit of a drawing in mm; how it is known is added to `report`.
 double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>& rods,
                const NetworkOptions& options, FileReport& report) {
-  constexpr double longest = 1e5, shortest = 20;  // diameters
+  constexpr double longest = 1e5, shortest = 20;  // lengths of a rod over its diameter
   double length = 0;
   for (const DrawnEntity* one : rods)
     for (const Eigen::Vector3d& point : one->points)
@@ -153,7 +151,8 @@ double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>&
     report.notes.push_back(fmt::format(
         "the drawing says that it is in {} ($INSUNITS): {:.4g} mm long, its rods of {:g} mm would "
         "be "
-        "{:.2g} times as long as thick; it is read in mm, file_unit = \"{}\" takes it at its word",
+        "{:.2g} times as long as thick; it is read in mm; file_unit = \"{}\" reads it in its own "
+        "unit",
         drawing.unit, length * drawing.unit_mm, rod, length * drawing.unit_mm / rod, drawing.unit));
     return 1;
   }
@@ -187,7 +186,7 @@ class MeshEdges {
   }
   std::size_t faces() const { return faces_; }
 
-  /// The network, its edges in line being one rod, or as a linkage.
+  /// The network, in which edges in line are one rod; or a linkage.
   Result<NetworkData> take(const std::string& name, const NetworkOptions& options,
                            FileReport& report) {
     if (options.linkage) return finish(builder_, name, known_.size(), options, report);

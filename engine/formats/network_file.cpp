@@ -77,7 +77,8 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
                                      const std::string& at) {
   if (joins_near()) points.erase(std::unique(points.begin(), points.end()), points.end());
   if (std::ranges::count(points, points.empty() ? 0 : points.front()) == long(points.size()))
-    return invalid(at + ": got a rod of one point, expected at least two, at a distance");
+    return invalid(at +
+                   ": got a rod of one point, expected at least two points at different positions");
   if (const auto same = std::ranges::adjacent_find(points); same != points.end())
     return invalid(
         "{}: got a segment of no length, expected points at a distance, and point {} follows "
@@ -126,7 +127,8 @@ std::string network_error(const NetworkData& network) {
     if (network.rods[r].size() < 2)
       return fmt::format("rods[{}]: got one point, expected at least two", r);
     for (const int point : network.rods[r])
-      if (!there(point)) return fmt::format("rods[{}] names point {} of {}", r, point, points);
+      if (!there(point))
+        return fmt::format("rods[{}]: got point {}, expected 0 to {}", r, point, points - 1);
   }
   if (!network.diameters.empty() && network.diameters.size() != rods)
     return fmt::format("got {} diameters_mm, expected one for each of {} rods",
@@ -136,9 +138,10 @@ std::string network_error(const NetworkData& network) {
         diameter != 0 && !(diameter >= 1e-6 && diameter <= 1e6))
       return fmt::format("rods[{}]: got a diameter of {:g} mm, expected 1e-6 to 1e6", r, diameter);
   const auto of_rod = [](const RodValue& value) { return value.rod; };
-  if (!std::ranges::is_sorted(network.own, {}, of_rod) ||
-      (rods > 0 && !network.own.empty() && network.own.back().rod >= int(rods)))
+  if (!std::ranges::is_sorted(network.own, {}, of_rod))
     return "own: expected rows [rod, key, value], in the order of the rods";
+  if (!network.own.empty() && network.own.back().rod >= int(rods))
+    return fmt::format("own: got rod {}, expected 0 to {}", network.own.back().rod, rods - 1);
   std::set<double> named;
   for (const auto& row : network.supports) {
     if (row.size() != 1 && row.size() != 4)
@@ -180,7 +183,8 @@ std::string network_error(const NetworkData& network) {
   }
   std::set<int> freed;
   for (const int point : network.free) {
-    if (!there(point)) return fmt::format("free names point {} of {}", point, points);
+    if (!there(point))
+      return fmt::format("free: got point {}, expected 0 to {}", point, points - 1);
     if (!freed.insert(point).second)
       return fmt::format("got point {} as free twice, expected once", point);
   }

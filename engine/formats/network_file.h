@@ -1,4 +1,4 @@
-// Networks of rods in files that a user brings.
+// Networks of rods in files of users.
 #pragma once
 
 #include <algorithm>
@@ -17,162 +17,165 @@ namespace gridshell::preset {
 /// The largest file of a network that is read.
 inline constexpr std::size_t largest_network_file = std::size_t(16) << 20;
 
-/// Points of a file nearer to one another than this are one.
+/// Points of a file nearer to each other than this are merged.
 inline constexpr double one_point_mm = 1e-3;
 
-/// By how much lines that meet end to end may turn to be one rod.
+/// Largest angle between two lines that meet end to end and become one rod.
 inline constexpr double most_turn_deg = 30;
 
-/// Stiffnesses of supports' springs, N/mm: far below and far above that of any rod.
+/// Range of the stiffness of supports' springs, N/mm: far below and far above that of any rod.
 inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 
 /// How a file of a network is read.
 struct NetworkOptions {
-  double unit_mm = 0;  ///< of a drawing; 0: the one that it names, else mm
-  /// Points nearer to one another are one, and an end that lies as near to a rod is joined to it;
-  /// 0: as one_point_mm says, ends joined only where they touch.
+  double unit_mm = 0;  ///< unit of a drawing; 0: the unit that it names, else mm
+  /// Points nearer to each other than this are merged, and ends nearer to a rod are joined to it;
+  /// 0: points within one_point_mm are merged, and ends are joined only to rods that they touch.
   double join_mm = 0;
-  double rod_mm = 0;  ///< diameter of a rod, by which an impossible unit is noticed; 0: not known
+  double rod_mm = 0;     ///< diameter of a rod, to notice an impossible unit; 0: not known
   bool linkage = false;  ///< each line of a drawing is one segment (NetworkBuilder::join_segments)
 };
 
-/// Reads a file as its name's ending says:
-///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
-/// list of numbers of points (from 0) or of positions [x, y], or {"points": list,
-///          "diameter_mm": d, "begin" and "end": "pinned", "tangent" or "clamped"} with any more
-/// keys of [rod]; a support {"point": number or position,
-/// "to_mm": [x, y, z]}, where "to_mm" may be "free" (of an end that nothing fixes) or left
-///          out (as the preset says), and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
-///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart; or
-/// {"point": number or position, or "points": list, "law": "free", "hinge", "rigid" or
-///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"};
-///          "law": one of these words, or {"law", "shear_Nmm", "twist_Nmm"}, of all other joints
-///   .obj   "v x y z" and polylines "l a b c ..."; without these the edges of its faces
-///          "f a b c ..."
-///   .ply, .off   the edges of faces, and of a .ply those of its element "edge"
-///   .dxf   the curves of model space that are shown (dxf_file.h), where there is a layer "rods" of
-///          that one alone; a circle that marks a point of a rod is none
-/// In drawings, .obj and .dxf, lines that meet end to end and turn by at most 30 degrees are
-/// one rod, and rods are joined wherever they cross or touch; in JSON where they name the same
-/// point or position, or points of one listed joint; edges of meshes where they share a vertex,
-/// those in line being one rod as the lines of drawings. Points [x, y] lie at z = 0, others [x, y,
-/// z] in space; a rod that ends where it begins is a ring. Errors (bad_input), with `name` and the
-/// line: not of the format, NaN, a point that is not there, in JSON one named by its number that
-/// lies where an earlier one does, a stretch of no length, an entity of a drawing that may be a rod
-/// and is not understood, lines that lie on one another, more than 100 000 points or rods, another
-/// ending.
+/// Reads a file in the format of its name's ending:
+///   .json: an object with the lists "points_mm" [[x, y], ...], "rods", "joints", "supports", and
+///     the "law" of all joints without one:
+///     - A rod is a list of indices of points (from 0) or of positions [x, y], or an object
+///       {"points": list, "diameter_mm": d, "begin": END, "end": END, other keys of [rod]}, END
+///       being "pinned", "tangent" or "clamped".
+///     - A support is {"point": index or position, "to_mm": [x, y, z]}. "to_mm" may be "free", for
+///       an end that nothing fixes; without it the preset decides. "spring_N_per_mm": k, or
+///       [kx, ky, kz], puts the support on a spring.
+///     - A joint is a list of points that become one joint although their positions differ, or
+///       {"point": index or position, "law": LAW, "eccentricity_mm": e}, or with "points": list.
+///     - LAW is "free", "hinge", "rigid", or "spring" with "shear_Nmm" and "twist_Nmm".
+///   .obj: vertices "v x y z" and polylines "l a b c ..."; without polylines the edges of the faces
+///     "f a b c ..."
+///   .ply, .off: the edges of faces, and in a .ply also its elements "edge"
+///   .dxf: the visible curves of model space (dxf_file.h), only those of layer "rods" if there is
+///     one; a circle that marks a point of a rod is no rod
+/// In drawings (.obj and .dxf) lines that meet end to end at an angle of at most 30 degrees become
+/// one rod, and rods are joined wherever they cross or touch. In JSON rods are joined at common
+/// points, common positions and listed joints. Edges of meshes are joined at common vertices; those
+/// in line become one rod. Points [x, y] have z = 0. A rod that ends at its first point is a ring.
+/// Errors (bad_input), with `name` and the line: text that is not of the format, NaN, a point that
+/// does not exist, in JSON a point named by its index that has the position of an earlier one, a
+/// segment without length, an entity of a drawing that may be a rod and is not supported, lines on
+/// one another, more than 100 000 points or rods, another ending.
 Result<NetworkData> read_network(std::string_view bytes, const std::string& name,
                                  const NetworkOptions& options = {}, FileReport* report = nullptr);
 
-/// Where a point of a network is, mm.
+/// Position of a point of a network, mm.
 inline Eigen::Vector3d place_of(const NetworkData& network, int point) {
   const auto& at = network.points[std::size_t(point)];
   return {at[0], at[1], at[2]};
 }
 
-/// How the rods of a network turn where two of them cross, as joints open: those of a linkage are
-/// two families, and from a rod of the first to one of the second the angle grows on one side.
+/// Directions in which the rods of a network must run so that all joints of two rods open together:
+/// the rods of a linkage are two families, and the angle from a rod of the first family to one of
+/// the second grows on the same side of the surface at all joints.
 struct OpeningSense {
-  std::vector<int> family;     ///< of every rod, 0 or 1; empty: rods are no two families
-  std::vector<char> reversed;  ///< of every rod: its points are to be reversed
-  std::vector<int> against{};  ///< points of joints whose angle grows on the other side
+  std::vector<int> family;     ///< family of each rod, 0 or 1; empty: there are no two families
+  std::vector<char> reversed;  ///< for each rod: whether its points must be reversed
+  std::vector<int> against{};  ///< points of joints that close when the others open
 };
 OpeningSense opening_sense(const NetworkData& network);
 
-/// The mean angle between the rods of all joints of two rods, rad, as drawn; 0 without one.
+/// Mean angle between the rods at all joints of two rods, as drawn, rad; 0 if there is no such
+/// joint.
 double mean_angle(const NetworkData& network);
 
-/// How often rods go through a point, and how often they end there.
+/// Number of rods that pass through a point, and of rods that end at it.
 struct PointUse {
   int passes = 0, ends = 0;
 };
+/// The use of each point.
 std::vector<PointUse> uses_of(const NetworkData& network);
 
-/// The median distance of neighbouring joints and ends along the rods, mm.
+/// Median distance of neighbouring joints and ends along the rods, mm.
 double spacing_of(const NetworkData& network);
 
-/// What is wrong with a spring's stiffnesses along x, y, z; empty: nothing.
+/// The error in a spring's stiffnesses along x, y, z; empty: none.
 std::string spring_error(const std::vector<double>& k);
 
-/// What is wrong with a network that a preset contains itself; empty: nothing.
+/// The error in a network that a preset contains itself; empty: none.
 std::string network_error(const NetworkData& network);
 
-// A network of rods while it is read: points at one position become one.
-
+/// Builds a network of rods from a file. Points at equal positions are merged. In all functions
+/// `at` is the position in the file, for messages.
 class NetworkBuilder {
  public:
-  /// Points nearer to one another than `join_mm`, at least than one_point_mm, are one.
+  /// Points nearer to each other than `join_mm` (at least one_point_mm) are merged.
   explicit NetworkBuilder(double join_mm = 0) : near_mm_(std::max(join_mm, one_point_mm)) {}
-  /// Whether points further apart than one_point_mm are one.
+  /// Whether points at a larger distance than one_point_mm are merged.
   bool joins_near() const { return near_mm_ > one_point_mm; }
-  /// Number of the point at a position of two or three coordinates: of one that is there already,
-  /// or new. `at` is its position in the file. Errors (bad_input): another number of coordinates,
-  /// one that is not finite or above 1e9, too many points.
+  /// Index of the point at a position of two or three coordinates, which is added if it is new.
+  /// Errors (bad_input): another number of coordinates, a coordinate that is not finite or above
+  /// 1e9, too many points.
   Result<int> place(const std::vector<double>& xyz, const std::string& at);
-  /// A new point; it represents an earlier one at its position.
+  /// Adds a point with the next index. If an earlier point has its position, point() returns that
+  /// one instead. Errors: those of place().
   Result<void> add_point(const std::vector<double>& xyz, const std::string& at);
   /// The earliest point at the position of point `number`. Errors (bad_input): there is no such
   /// point.
   Result<int> point(long number, const std::string& at) const;
-  /// A rod through points. Errors (bad_input): fewer than two points apart, a point that follows
-  /// itself, too many rods.
+  /// Adds a rod through points. Errors (bad_input): fewer than two different points, a point that
+  /// follows itself, too many rods.
   Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
-  /// A key of [rod] that the last rod has of its own.
+  /// Adds a key of [rod] that the last rod has with another value.
   void add_own(const std::string& key, double value) {
     network_.own.push_back({int(network_.rods.size()) - 1, key, value});
   }
-  /// The constraint of the start or the end of the last rod.
+  /// Adds a constraint of the start or the end of the last rod.
   void add_hold(bool end, EndKind kind) {
     network_.holds.push_back({double(network_.rods.size()) - 1, double(end), double(kind)});
   }
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
-  /// The spring of a support, along x, y, z, N/mm.
+  /// Adds the spring of a support: stiffness along x, y, z, N/mm.
   void add_spring(int point, const std::vector<double>& k) {
     network_.springs.push_back({double(point), k[0], k[1], k[2]});
   }
   void add_free(int point) { network_.free.push_back(point); }
-  /// A row of NetworkData::joint_laws.
+  /// Adds a row of NetworkData::joint_laws.
   void add_law(std::vector<double> row) { network_.joint_laws.push_back(std::move(row)); }
-  /// Points that are to be one joint, as `at` lists them. Errors (bad_input): one that another
-  /// joint has too.
+  /// Adds a list of points that are one joint. Errors (bad_input): a point that is in another list.
   Result<void> add_joint(std::vector<int> points, const std::string& at);
-  /// Makes the points of every joint that was added one, the first of them, at their mean position:
-  /// in rods, supports and what is free. Where rods only end there, and it is no support, they are
-  /// joined by a hinge. Errors (bad_input), at the joint: a point of no rod, two of one rod that
-  /// are not its two ends, a point further off the mean than a quarter of the shortest stretch of
-  /// rod at the joint.
+  /// Merges the points of every list of add_joint() into the first one, at their mean position, in
+  /// rods, supports and free ends. If rods only end there, and it is no support, they are joined by
+  /// a hinge. Errors (bad_input), at the joint: a point of no rod, two points of one rod that are
+  /// not its two ends, a point whose distance from the mean exceeds a quarter of the shortest
+  /// segment of rod at the joint.
   Result<void> join_listed();
-  /// Lines that meet end to end become one rod, each end with the one that it turns least to, by
-  /// most_turn_deg at most. Returns how many meetings that were. Errors (bad_input): more than 100
-  /// ends at one point.
+  /// Joins lines that meet end to end to rods: each end continues in the line with the smallest
+  /// angle, at most most_turn_deg. Returns the number of points where lines were joined. Errors
+  /// (bad_input): more than 100 ends at one point.
   Result<int> join_in_line();
-  /// Makes a linkage of lines that are its segments, as X-shells are stored [Panetta et al. 2019]:
-  /// at a point of four the opposite ones continue one another, at one of three the straightest two
-  /// that make no triangle, at one of two none. Rods run so that all joints open together, from an
-  /// acute mean angle; every joint is a hinge, ends are free, and springs at three joints prevent
-  /// rigid motions. Errors (bad_input): a line of more than two points, more than
-  /// four segments at a point.
+  /// Makes a linkage from lines that are its segments, as X-shells are stored [Panetta et al.
+  /// 2019]. At a point of four segments the opposite ones continue each other, at a point of three
+  /// the straightest two that make no triangle, at a point of two none. Rods run so that all joints
+  /// open together, from an acute mean angle. Every joint is a hinge, ends are free, and springs at
+  /// three joints prevent rigid motions. Errors (bad_input): a line of more than two points, more
+  /// than four segments at a point.
   Result<void> join_segments(FileReport& report);
-  /// Ends that nothing is joined to and that lie within the builder's join_mm of another rod are
-  /// moved onto it and joined. Errors (bad_input): too many to be looked at.
+  /// Moves ends without a joint that are within join_mm of another rod onto that rod and joins
+  /// them. Errors (bad_input): too many ends and rods.
   Result<void> join_ends(const std::string& name);
-  /// Joins rods where they cross or touch, as drawings have them: a point more on each. Errors
-  /// (bad_input): rods that lie on one another, too many to be looked at.
+  /// Joins rods where they cross or touch: adds a common point to both. Errors (bad_input): rods
+  /// that lie on one another, too many segments.
   Result<void> join_crossings(const std::string& name);
-  /// Leaves so many points of curved pieces that rods turn by some degrees at each; points
-  /// where lines met that were one are left out. Points that another rod has remain.
+  /// Removes points of curved pieces, so that rods turn by some degrees at each remaining one, and
+  /// points between lines that were joined in line. Points of two rods remain.
   void thin_out();
-  /// A point of a curved piece, which may be left out.
+  /// Marks a point of a curved piece, which thin_out() may remove.
   void mark_sample(int point) { samples_.insert(point); }
   std::size_t points() const { return network_.points.size(); }
-  /// Errors (bad_input): no rods; what network_error() says.
+  /// The network. Errors (bad_input): no rods; those of network_error().
   Result<NetworkData> take(const std::string& name);
 
  private:
   using Cell = std::tuple<long, long, long>;
   int known(const std::vector<double>& xyz) const;
 
-  /// Points that are to be one, and where the file says so.
+  /// Points that are one joint, and the position of the list in the file.
   struct Joint {
     std::vector<int> points;
     std::string at;
@@ -188,17 +191,17 @@ class NetworkBuilder {
 
   double near_mm_;
   NetworkData network_;
-  std::vector<std::string> places_;  // of each rod, where the file has it
-  std::set<int> samples_, seams_;    // points that may be left out
+  std::vector<std::string> places_;  // position of each rod in the file
+  std::set<int> samples_, seams_;    // points that thin_out() may remove
   std::vector<Joint> joints_;
   std::set<int> listed_;      // points of joints_
-  std::vector<int> same_as_;  // per point: the earliest one at its position
+  std::vector<int> same_as_;  // for each point the earliest one at its position
   std::map<Cell, std::vector<int>> at_;
   std::size_t entries_ = 0;
   bool diameters_ = false;
 };
 
-// the formats; errors as read_network()
+// Readers of the formats; their errors are those of read_network().
 Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name,
                                       const NetworkOptions& options);
 Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name,
@@ -208,7 +211,8 @@ Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string&
 Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name,
                                      const NetworkOptions& options, FileReport& report);
 
-/// Adds to a report's sentence what network came of a file, and notes on what is not joined.
+/// Adds the numbers of rods, joints and supports to a report's sentence, and notes on points that
+/// are near to each other and not joined.
 void report_network(const NetworkData& network, const NetworkOptions& options, FileReport& report);
 
 }  // namespace gridshell::preset

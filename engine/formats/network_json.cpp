@@ -1,4 +1,4 @@
-// Networks as JSON: points, rods, listed joints, supports and where these go.
+// Reads networks from JSON: points, rods, listed joints, supports.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reads on and counts lines.
+/// An iterator over characters that counts lines.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -50,13 +50,13 @@ class CountingIterator {
   int* line_;
 };
 
-// values nested deeper are of no network
+// largest depth of nested values in a network
 constexpr int deepest = 6;
 
 constexpr std::size_t most_at_a_joint = 100;
 constexpr std::size_t longest_key = 40;
 
-/// A text with the lines on which the items of its lists begin.
+/// A JSON document, and the line at which each item of its lists starts.
 struct Document {
   Json json;
   std::map<std::string, std::vector<int>> lines;
@@ -66,7 +66,7 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
   Document document;
   int line = 1;
   std::string key, twice;
-  std::map<int, std::set<std::string>> keys;  // of the objects that are open, by depth
+  std::map<int, std::set<std::string>> keys;  // keys of the open objects, by depth
   const auto seen = [&](int depth, Json::parse_event_t event, Json& value) {
     using Event = Json::parse_event_t;
     if (event == Event::object_start) keys[depth + 1].clear();
@@ -96,7 +96,7 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
   return document;
 }
 
-/// Numbers of a list, if it is one of numbers.
+/// The numbers of a list; empty if it is no list of numbers.
 std::optional<std::vector<double>> numbers_in(const Json& value) {
   if (!value.is_array()) return std::nullopt;
   std::vector<double> numbers;
@@ -170,8 +170,9 @@ class Reader {
     return builder_.add_point(*xyz, at_);
   }
 
-  /// The number of a point, or that of a point at a position. Who names one that lies where another
-  /// does may not know that it is the same, but in a list of joints.
+  /// Index of the point that a value names by index or position. An index of a point that was
+  /// merged with an earlier one is an error, since it is probably a mistake, except in a list of
+  /// joints.
   Result<int> point_of(const Json& value, bool in_joint = false) {
     if (value.is_number_integer()) {
       if (value.is_number_unsigned() && value.get<std::uint64_t>() > builder_.points())
@@ -219,7 +220,7 @@ class Reader {
           diameter = inner.get<double>();
         } else if (key != "diameter_mm" &&
                    (key == "as_drawn" ? inner.is_boolean() : inner.is_number())) {
-          // which keys there are is known where [rod] is
+          // own_value_error() checks the keys: this folder does not know those of [rod]
           own.emplace_back(key.substr(0, longest_key),
                            inner.is_boolean() ? double(inner.get<bool>()) : inner.get<double>());
         } else {
@@ -248,7 +249,7 @@ class Reader {
     return {};
   }
 
-  /// Points that are to be one: the first of them.
+  /// Adds a list of points that are one joint. Returns the first.
   Result<int> merged(const Json& value) {
     if (!value.is_array() || value.size() < 2 || value.size() > most_at_a_joint)
       return unlike(value, "a list of 2 to 100 points, by number or position");
@@ -265,7 +266,7 @@ class Reader {
     return first;
   }
 
-  /// That of all joints which have none of their own: a law, or an object as of a joint.
+  /// Reads the law of all joints without a law of their own: a name, or an object as for a joint.
   Result<void> network_law() {
     const auto law = document_.json.find("law");
     if (law == document_.json.end()) return {};
@@ -279,8 +280,8 @@ class Reader {
     return {};
   }
 
-  /// "free", "hinge": turns about the normal alone; "rigid"; or "spring" of two stiffnesses. A row
-  /// of joint_laws.
+  /// Reads a law as a row of joint_laws: "free", "hinge" (rotates about the normal alone), "rigid",
+  /// or "spring" with two stiffnesses.
   Result<std::vector<double>> law_of(const Json& value, double point) const {
     static const std::map<std::string, std::pair<double, double>> laws{
         {"free", {0, 0}}, {"hinge", {0, -1}}, {"rigid", {-1, -1}}, {"spring", {0, 0}}};
@@ -348,7 +349,7 @@ class Reader {
                                              : Result<void>();
   }
 
-  /// The stiffness: one for x, y and z, or one along each.
+  /// Reads the stiffness of a support's spring: one for x, y and z, or one for each.
   Result<void> spring(int point, const Json& value) {
     const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
                                      : numbers_in(value).value_or(std::vector<double>());

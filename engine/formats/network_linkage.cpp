@@ -1,4 +1,4 @@
-// Linkages: of every line that is one segment, rods by their direction at each joint.
+// Linkages: joins lines that are segments to rods, by their directions at each joint.
 
 #include <fmt/format.h>
 
@@ -15,13 +15,13 @@
 namespace gridshell::preset {
 namespace {
 
-/// An end of a segment: begin of line r at 2 r, end at 2 r + 1.
+/// An end of a segment at a joint.
 struct SegmentEnd {
-  int number = 0;
+  int number = 0;         ///< 2 r for the start, 2 r + 1 for the end of line r
   int to = 0;             ///< the point at the other end
-  Eigen::Vector3d out{};  ///< unit, away from the joint
+  Eigen::Vector3d out{};  ///< unit vector away from the joint
 };
-using SegmentEnds = std::vector<std::vector<SegmentEnd>>;  // of every point
+using SegmentEnds = std::vector<std::vector<SegmentEnd>>;  // ends at each point
 
 SegmentEnds segment_ends(const NetworkData& network) {
   SegmentEnds ends(network.points.size());
@@ -34,8 +34,8 @@ SegmentEnds segment_ends(const NetworkData& network) {
   return ends;
 }
 
-/// Whether two segments of a joint, as one rod, would close a triangle with two more rods: their
-/// far points then share another neighbour than the joint.
+/// Whether two segments of a joint, joined to one rod, would close a triangle with two other rods:
+/// their far points then have another common neighbour than the joint.
 bool make_triangle(const SegmentEnds& ends, const SegmentEnd& a, const SegmentEnd& b) {
   std::set<int> beside;
   for (const SegmentEnd& one : ends[std::size_t(a.to)]) beside.insert(one.to);
@@ -43,7 +43,7 @@ bool make_triangle(const SegmentEnds& ends, const SegmentEnd& a, const SegmentEn
                                [&](const SegmentEnd& one) { return beside.contains(one.to); }) > 1;
 }
 
-/// The two of three segments that continue one another straightest and make no triangle: indices.
+/// Indices of the two of three segments that are straightest and make no triangle; or empty.
 std::vector<std::array<std::size_t, 2>> straightest(const SegmentEnds& all,
                                                     const std::vector<SegmentEnd>& ends) {
   std::vector<std::array<std::size_t, 2>> best;
@@ -57,7 +57,7 @@ std::vector<std::array<std::size_t, 2>> straightest(const SegmentEnds& all,
   return best;
 }
 
-/// The pairs of four segments that are opposite one another about the joint's normal: indices.
+/// Indices of the two pairs of four segments that are opposite each other about the joint's normal.
 std::vector<std::array<std::size_t, 2>> opposite(const std::vector<SegmentEnd>& ends) {
   Eigen::Vector3d normal(0, 0, 0);
   for (const SegmentEnd& one : ends) {
@@ -76,12 +76,12 @@ std::vector<std::array<std::size_t, 2>> opposite(const std::vector<SegmentEnd>& 
   return {{0, turned[1].second}, {turned[0].second, turned[2].second}};
 }
 
-/// A joint of two rods: the tangents with which they run through it.
+/// A joint of two rods.
 struct RodCrossing {
   int point = 0;
   std::array<int, 2> rods{};
-  Eigen::Vector3d across{};  ///< first tangent x second
-  double angle = 0;          ///< between them, rad
+  Eigen::Vector3d across{};  ///< tangent of the first rod x tangent of the second
+  double angle = 0;          ///< angle between the tangents, rad
 };
 
 std::vector<RodCrossing> crossings_of(const NetworkData& network) {
@@ -110,7 +110,7 @@ std::vector<RodCrossing> crossings_of(const NetworkData& network) {
   return all;
 }
 
-/// The crossings of every rod, along it.
+/// Indices of the crossings on each rod, in order along it.
 std::vector<std::vector<std::size_t>> crossings_along(const NetworkData& network,
                                                       const std::vector<RodCrossing>& crossings) {
   std::map<int, std::size_t> at;
@@ -122,7 +122,7 @@ std::vector<std::vector<std::size_t>> crossings_along(const NetworkData& network
   return along;
 }
 
-/// Turns normals to one side, so that those of neighbours along a rod have a positive product.
+/// Inverts normals so that those of neighbours along a rod have a positive scalar product.
 void turn_to_one_side(const std::vector<std::vector<std::size_t>>& along,
                       std::vector<Eigen::Vector3d>& normals) {
   std::vector<std::vector<std::size_t>> beside(normals.size());
@@ -162,7 +162,7 @@ OpeningSense opening_sense(const NetworkData& network) {
     std::vector<std::size_t> piece{first};
     std::set<std::size_t> joints;
     sense.family[first] = 0;
-    const auto opens = [&](std::size_t k) {  // +1, -1: from the first family's rod to the other
+    const auto opens = [&](std::size_t k) {  // side on which the angle between the families grows
       const int side = crossings[k].across.dot(normals[k]) < 0 ? -1 : 1;
       return sense.family[std::size_t(crossings[k].rods[0])] == 0 ? side : -side;
     };
@@ -215,8 +215,9 @@ Result<std::vector<int>> NetworkBuilder::continued_by_direction() const {
   return partner;
 }
 
-/// Puts three joints on springs that prevent rigid motions alone: one in all directions, the
-/// farthest from it in two, the farthest from the line through both in one.
+/// Puts three joints on springs that only prevent rigid motions: the joint nearest to the middle in
+/// all directions, the one farthest from it in two, the one farthest from the line through both in
+/// one.
 void NetworkBuilder::support_on_springs() {
   const std::vector<RodCrossing> joints = crossings_of(network_);
   if (joints.size() < 3) return;
@@ -258,7 +259,7 @@ Result<void> NetworkBuilder::join_segments(FileReport& report) {
   };
   reverse([&](std::size_t r) { return sense.reversed[r] != 0; });
   sense = opening_sense(network_);
-  // so that the angles of joints are acute
+  // the angles of joints become acute on average
   if (mean_angle(network_) > 0.5 * M_PI)
     reverse([&](std::size_t r) { return sense.family[r] == 1; });
   support_on_springs();

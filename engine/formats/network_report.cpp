@@ -1,4 +1,4 @@
-// What came of a network's file, and what may not be as it was meant.
+// Report on a network that was read, with notes on probable mistakes.
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "engine/core/text.h"
 #include "engine/formats/network_file.h"
 
 namespace gridshell::preset {
@@ -26,7 +27,7 @@ std::vector<PointUse> uses_of(const NetworkData& network) {
 
 namespace {
 
-/// Distances of neighbouring joints and ends along the rods.
+/// Distances of neighbouring joints and ends along the rods, mm.
 std::vector<double> segments_of(const NetworkData& network, const std::vector<PointUse>& uses) {
   std::vector<double> segments;
   for (const std::vector<int>& rod : network.rods) {
@@ -42,13 +43,15 @@ std::vector<double> segments_of(const NetworkData& network, const std::vector<Po
   return segments;
 }
 
-/// Two points of different rods, or a rod's end and the rod that it does not reach.
+/// Two points of different rods that are near to each other, or an end of a rod that is near to
+/// another rod, and not joined.
 struct NearPair {
   Eigen::Vector3d first;
   double apart_mm = 0;
 };
 
-/// Pairs of points nearer than that which are not joined: a cell of the size has few.
+/// Finds pairs of points nearer to each other than `near` that are not joined, by a grid of cells
+/// of that size.
 class NearPoints {
  public:
   NearPoints(const NetworkData& network, double near) : network_(network), near_(near) {
@@ -105,10 +108,10 @@ class NearPoints {
 
   /// Whether all rods at two points are parallel neighbours, as laths in a bundle are.
   bool pass(int a, int b) const {
-    // whom the file lets go is meant to be free
+    // ends that the file declares free are not a mistake
     if (std::ranges::count(network_.free, a) + std::ranges::count(network_.free, b) > 0)
       return true;
-    constexpr double alike = 0.25;  // sine of their angle
+    constexpr double alike = 0.25;  // sine of the angle between parallel rods, at most
     const Eigen::Vector3d apart = place_of(network_, b) - place_of(network_, a);
     for (const int next : beside_[std::size_t(a)])
       for (const int other : beside_[std::size_t(b)]) {
@@ -120,10 +123,10 @@ class NearPoints {
     return true;
   }
 
-  /// Ends that nothing is joined to, near a rod that they do not reach.
+  /// Adds ends without a joint that are near to a rod.
   void add_short_ends(const std::set<int>& found, std::vector<NearPair>& pairs) const {
     constexpr std::size_t most = 20000000;  // pairs looked at
-    std::vector<std::pair<int, int>> ends;  // of which rod
+    std::vector<std::pair<int, int>> ends;  // the point and its rod
     std::size_t stretches = 0;
     for (std::size_t r = 0; r < network_.rods.size(); ++r) {
       const std::vector<int>& rod = network_.rods[r];
@@ -136,7 +139,7 @@ class NearPoints {
     if (ends.size() * stretches > most) return;
     for (const auto& [end, own] : ends) {
       const std::vector<int>& rod = network_.rods[std::size_t(own)];
-      // a rod that is joined directly next to the end is one that it passes
+      // rods that are joined at the next point are near for a reason: the end reaches past them
       const int beside = end == rod.front() ? rod[1] : rod[rod.size() - 2];
       const Eigen::Vector3d at = place_of(network_, end);
       double least = near_;
@@ -158,12 +161,8 @@ class NearPoints {
   const NetworkData& network_;
   double near_;
   std::map<Cell, std::vector<int>> cells_;
-  std::vector<std::vector<int>> rods_, beside_;  // of each point, in order
+  std::vector<std::vector<int>> rods_, beside_;  // rods through each point; its neighbours on them
 };
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 }  // namespace
 

@@ -24,8 +24,8 @@ std::optional<long> obj_vertex(std::string_view word, long vertices) {
   return *number > 0 ? *number - 1 : vertices + *number;
 }
 
-/// The next line, with the lines that a backslash at its end joins to it; `number` is that of the
-/// last one; `joined` stores a line made of several.
+/// The next line, with the following ones as long as it ends in a backslash. `number` is increased
+/// for these; `joined` stores a line that is made of several.
 std::string_view obj_line(std::string_view& text, int& number, std::string& joined) {
   std::string_view line = trimmed(next_line(text));
   if (!line.ends_with('\\')) return line;
@@ -42,7 +42,7 @@ std::string_view obj_line(std::string_view& text, int& number, std::string& join
   return joined;
 }
 
-/// x, y, z of "v x y z", which a weight or a colour may follow.
+/// x, y, z of a line "v x y z"; a weight or a colour may follow.
 Result<std::vector<double>> obj_coordinates(const std::vector<std::string_view>& words,
                                             const std::string& place) {
   std::vector<double> xyz;
@@ -76,7 +76,7 @@ std::optional<Number> number_type(std::string_view word) {
 
 struct Property {
   std::string name;
-  std::optional<Number> count;  ///< of a list: the type of its length
+  std::optional<Number> count;  ///< type of the length of a list; empty: the property is no list
   Number value = Number::float32;
 };
 
@@ -151,7 +151,7 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
   return invalid(name + ": ends within its header");
 }
 
-/// The numbers behind a header, one after another; nothing once they end or are none.
+/// Reads the numbers after a header, one by one; empty at the end, or if a text is no number.
 class Numbers {
  public:
   Numbers(std::string_view bytes, Form form) : bytes_(bytes), form_(form) {}
@@ -167,7 +167,7 @@ class Numbers {
     if (begin == std::string_view::npos) return std::nullopt;
     bytes_.remove_prefix(begin);
     const std::size_t end = std::min(bytes_.find_first_of(blanks), bytes_.size());
-    // a scanner's vertex may be nan
+    // nan is a number: scanners write it for missing vertices
     std::string_view word = bytes_.substr(0, end);
     if (word.starts_with('+')) word.remove_prefix(1);
     const auto value = parse_number<double>(word);
@@ -214,7 +214,7 @@ class Numbers {
   Form form_;
 };
 
-/// The values of one property of one element: one, or those of a list.
+/// The values of one property of one element: a single one, or those of a list.
 std::optional<std::vector<double>> values_of(const Property& property, Numbers& numbers) {
   constexpr double longest = 1000;
   double count = 1;
@@ -318,7 +318,8 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
   if (words.empty()) words = next_words();
   const auto count = [&](std::size_t k) {
     const auto value = k < words.size() ? parse_number<long>(words[k]) : std::nullopt;
-    return value && *value >= 0 ? *value : -1;
+    constexpr long most = 1'000'000'000;  // vertices, faces, and corners of a face
+    return value && *value >= 0 && *value <= most ? *value : -1;
   };
   const long vertices = count(0), faces = count(1);
   if (vertices < 0 || faces < 0)
@@ -358,7 +359,7 @@ Result<void> each_ply_item(std::string_view bytes, const std::string& name,
   TRY(header, read_header(bytes, name));
   Numbers numbers(bytes, header->form);
   for (const Element& element : header->elements)
-    // what has no properties takes no room: there may be any number of them
+    // elements without properties take no bytes: a file may declare any number of them
     for (std::size_t k = 0; k < element.count && !element.properties.empty(); ++k) {
       TRY(item, read_item(element, k, numbers, name));
       if (auto taken = take(*item); !taken) return taken;

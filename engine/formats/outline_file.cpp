@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/point_grid.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/plain_text.h"
@@ -18,7 +20,7 @@ namespace {
 
 using Line = std::vector<Eigen::Vector2d>;
 
-/// The enclosed area of a closed line by the shoelace formula, without its sign.
+/// Area inside a closed line, by the shoelace formula.
 double area_of(const Line& line) {
   double twice = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -36,73 +38,113 @@ Line without_repeats(const Line& line, double near) {
   return points;
 }
 
-/// The open line that has an end nearest to the end of `chain`, and whether it is its last point.
-struct Next {
-  std::size_t line = 0;
-  bool reversed = false;
-  double gap = INFINITY;
+/// Lines that are not closed, found by the positions of their ends.
+class OpenLines {
+ public:
+  /// `near`: largest distance of ends that meet.
+  OpenLines(std::vector<Line> lines, const Eigen::Vector2d& low, double near)
+      : lines_(std::move(lines)), low_(low), near_(near), grid_(std::max(near, 1e-300)) {
+    for (std::size_t end = 0; end < 2 * lines_.size(); ++end) grid_.add(int(end), at(point(end)));
+  }
+
+  /// Takes out the last line; empty: there is none.
+  Line take_last() {
+    while (!lines_.empty() && lines_.back().empty()) lines_.pop_back();
+    return lines_.empty() ? Line() : std::exchange(lines_.back(), {});
+  }
+  /// Takes out the line with the end that is nearest to a point, from that end on; empty: no end is
+  /// within `near`.
+  Line take_next(const Eigen::Vector2d& from) {
+    double gap = INFINITY;
+    std::size_t next = 0;
+    grid_.any_near(at(from), [&](int number) {
+      const auto end = std::size_t(number);
+      if (end / 2 >= lines_.size() || lines_[end / 2].empty()) return false;
+      const double distance = (point(end) - from).norm();
+      if (distance <= near_ && (distance < gap || (distance == gap && end < next)))
+        gap = distance, next = end;
+      return gap == 0;
+    });
+    if (gap == INFINITY) return {};
+    Line line = std::exchange(lines_[next / 2], {});
+    if (next % 2 == 1) std::ranges::reverse(line);
+    return line;
+  }
+
+ private:
+  const Eigen::Vector2d& point(std::size_t end) const {
+    return end % 2 == 0 ? lines_[end / 2].front() : lines_[end / 2].back();
+  }
+  Eigen::Vector3d at(const Eigen::Vector2d& p) const {
+    return {p.x() - low_.x(), p.y() - low_.y(), 0};
+  }
+
+  std::vector<Line> lines_;  // those that were taken out are empty
+  Eigen::Vector2d low_;
+  double near_;
+  PointGrid grid_;
 };
-Next next_of(const Line& chain, const std::vector<Line>& open) {
-  Next next;
-  for (std::size_t k = 0; k < open.size(); ++k)
-    for (const bool reversed : {false, true}) {
-      const double gap = ((reversed ? open[k].back() : open[k].front()) - chain.back()).norm();
-      if (gap < next.gap) next = {k, reversed, gap};
-    }
-  return next;
+
+/// The smallest distance between ends of chains that do not close; infinite if there are too many
+/// chains to compare.
+double smallest_gap(const std::vector<Line>& chains) {
+  constexpr std::size_t most = 2000;
+  double gap = INFINITY;
+  for (std::size_t i = 0; i < chains.size() && chains.size() <= most; ++i) {
+    const Line& one = chains[i];
+    if (one.size() > 2) gap = std::min(gap, (one.front() - one.back()).norm());
+    for (std::size_t k = i + 1; k < chains.size(); ++k)
+      for (const auto& a : {one.front(), one.back()})
+        for (const auto& b : {chains[k].front(), chains[k].back()})
+          gap = std::min(gap, (a - b).norm());
+  }
+  return gap;
 }
 
+/// The closed lines of a drawing.
 struct Loops {
   std::vector<Line> closed;
-  std::size_t open = 0;   ///< chains that do not close
-  double gap = INFINITY;  ///< the smallest gap between their ends
+  std::size_t open = 0;   ///< number of chains that do not close
+  double gap = INFINITY;  ///< the smallest gap between ends of these chains
 };
 
-Loops loops_of(const PlanDrawing& drawing, double near) {
+Loops loops_of(const PlanDrawing& drawing, const Eigen::Vector2d& low, double near) {
   Loops loops;
-  std::vector<Line> open;
+  std::vector<Line> lines, chains;
   const auto take = [&](const Line& line, bool closed) {
     Line points = without_repeats(line, closed ? near : 0);
     if (closed && points.size() > 2)
       loops.closed.push_back(std::move(points));
     else if (points.size() > 1)
-      open.push_back(std::move(points));
+      lines.push_back(std::move(points));
   };
   for (const PlanLine& line : drawing.lines) {
     const bool returns =
         line.points.size() > 3 && (line.points.front() - line.points.back()).norm() <= near;
     take(line.points, line.closed || returns);
   }
-  while (!open.empty()) {
-    Line chain = std::move(open.back());
-    open.pop_back();
+  OpenLines open(std::move(lines), low, near);
+  for (Line chain = open.take_last(); !chain.empty(); chain = open.take_last()) {
     for (;;) {
-      const double gap = (chain.front() - chain.back()).norm();
-      if (chain.size() > 2 && gap <= near) {
+      if (chain.size() > 2 && (chain.front() - chain.back()).norm() <= near) {
         loops.closed.push_back(without_repeats(chain, near));
         break;
       }
-      Next next = next_of(chain, open);
-      if (next.gap > near) {  // perhaps it continues at its other end
+      Line next = open.take_next(chain.back());
+      if (next.empty()) {  // perhaps it continues at its other end
         std::ranges::reverse(chain);
-        next = next_of(chain, open);
+        next = open.take_next(chain.back());
       }
-      if (next.gap > near) {
-        ++loops.open;
-        loops.gap = std::min({loops.gap, next.gap, chain.size() > 2 ? gap : INFINITY});
+      if (next.empty()) {
+        chains.push_back(std::move(chain));
         break;
       }
-      Line& more = open[next.line];
-      if (next.reversed) std::ranges::reverse(more);
-      chain.insert(chain.end(), more.begin() + 1, more.end());
-      open.erase(open.begin() + std::ptrdiff_t(next.line));
+      chain.insert(chain.end(), next.begin() + 1, next.end());
     }
   }
+  loops.open = chains.size();
+  loops.gap = smallest_gap(chains);
   return loops;
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& name) {
@@ -140,13 +182,19 @@ Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& 
 
 Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& name,
                                  double join_mm, FileReport& report) {
-  constexpr double touching = 1e-6;  // of the drawing's size
+  constexpr double touching = 1e-6;  // distance of ends that meet, over the drawing's size
+  constexpr double largest = 1e9;    // coordinate, in the drawing's unit and in mm
   Eigen::AlignedBox2d box;
   for (const PlanLine& line : drawing.lines)
-    for (const Eigen::Vector2d& point : line.points) box.extend(point);
+    for (const Eigen::Vector2d& point : line.points) {
+      const double far = point.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+      if (!(far <= largest && drawing.unit_mm * far <= largest))
+        return invalid("{}: got a coordinate that is too large, expected at most 1e9 mm", name);
+      box.extend(point);
+    }
   const double size = box.isEmpty() ? 0 : box.diagonal().norm(),
                near = std::max(touching * size, join_mm / drawing.unit_mm);
-  const Loops loops = loops_of(drawing, near);
+  const Loops loops = loops_of(drawing, box.min(), near);
   const auto largest = std::ranges::max_element(loops.closed, {}, area_of);
   if (largest == loops.closed.end() || !(area_of(*largest) > touching * size * size))
     return invalid("{}: got no closed outline{}{}", name,

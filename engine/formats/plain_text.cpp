@@ -34,7 +34,7 @@ std::string from_utf16(std::string_view bytes, bool big) {
       high = 0;
     }
   }
-  // half a letter: the file was cut
+  // half a code unit at the end: the file was cut short
   if (bytes.size() % 2 == 1) text += '?';
   return text;
 }

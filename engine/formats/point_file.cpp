@@ -13,7 +13,7 @@
 namespace gridshell::preset {
 namespace {
 
-/// Points as they come.
+/// Collects the points of a cloud.
 class CloudBuilder {
  public:
   Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto place_of) {
@@ -74,28 +74,18 @@ std::string ending_of(const std::string& name) {
   return ending;
 }
 
-Result<Points> read_points(const std::filesystem::path& file,
-                           const std::vector<std::string>& coordinates,
-                           const std::vector<std::vector<std::string>>& known) {
-  const auto text = read_file(file, largest_text);
-  if (!text) return invalid(text.error().message);
-  return points_in(*text, file.string(), coordinates, known);
-}
-
 Result<Points> points_in(std::string_view text, const std::string& name,
                          const std::vector<std::string>& coordinates,
-                         const std::vector<std::vector<std::string>>& words,
-                         std::vector<int>* lines, double unit_mm) {
+                         const std::vector<std::vector<std::string>>& words) {
   std::vector<TableColumn> columns;
   for (std::size_t k = 0; k < coordinates.size(); ++k)
     columns.push_back({coordinates[k], k < words.size() ? words[k] : std::vector<std::string>()});
-  TRY(table, read_table(text, name, columns, {.unit_mm = unit_mm}));
+  TRY(table, read_table(text, name, columns));
   Points points;
   for (std::size_t row = 0; row < table->rows(); ++row) {
     const auto first = table->values.begin() + std::ptrdiff_t(row * table->columns);
     points.emplace_back(first, first + std::ptrdiff_t(table->columns));
   }
-  if (lines) *lines = std::move(table->lines);
   return points;
 }
 

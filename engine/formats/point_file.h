@@ -1,4 +1,4 @@
-// Points in a text file: boundaries, profiles, curves and measured joints that a user brings.
+// Points in files of users: boundaries, profiles, curves, measured joints, clouds of 3D scanners.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,28 +13,22 @@
 
 namespace gridshell::preset {
 
-/// A finite number that is all of a word.
+/// The number that a complete word is; empty: it is no finite number.
 std::optional<double> number_of(std::string_view word);
 
-/// ".csv" of "Points.CSV": what a file's name says of its format, in small letters.
+/// The ending of a file's name in lower case: ".csv" of "Points.CSV".
 std::string ending_of(const std::string& name);
 
-/// Reads a table (table_file.h) with as many columns as `coordinates`; a column with `words` is the
-/// index of one of them. Errors (bad_input) as read_table(); a file that cannot be read.
-Result<Points> read_points(const std::filesystem::path& file,
-                           const std::vector<std::string>& coordinates,
-                           const std::vector<std::vector<std::string>>& words = {});
-
-/// Reads points from a text, called `name` in messages; `lines`, if given, returns the line of each
-/// point; `unit_mm` is the unit of lengths whose column names none.
+/// Reads a table (table_file.h) with the columns `coordinates`; `name` is its name in messages. A
+/// column with `words` contains names, which are returned as their indices. Errors (bad_input):
+/// those of read_table().
 Result<Points> points_in(std::string_view text, const std::string& name,
                          const std::vector<std::string>& coordinates,
-                         const std::vector<std::vector<std::string>>& words = {},
-                         std::vector<int>* lines = nullptr, double unit_mm = 1);
+                         const std::vector<std::vector<std::string>>& words = {});
 
 // Clouds of points in files of 3D scanners.
 
-/// The largest file of points that is read, and the most points.
+/// Largest size of a file of points, in bytes, and largest number of points.
 inline constexpr std::size_t largest_cloud_file = std::size_t(512) << 20,
                              most_cloud_points = 10000000;
 
@@ -44,11 +38,11 @@ struct Cloud {
   std::size_t empty_rows = 0;
 };
 
-/// Reads points in the format of the name's ending: .ply (text or binary; of the elements the
-/// vertices), or .xyz, .txt, .asc, .csv or .pts: a table (table_file.h) of x, y, z, which normals
-/// and colours may follow. `unit_mm` is the unit of a file that names none. Errors (bad_input),
-/// with `name` and line or number: text that is not of the format, a row with some numbers missing,
-/// a coordinate above 1e9 mm, no point at all, too many.
+/// Reads points in the format of the name's ending: .ply (the vertices, text or binary), or .xyz,
+/// .txt, .asc, .csv or .pts: a table (table_file.h) of x, y, z; normals and colours may follow.
+/// `unit_mm` is the unit of a file that names none. Errors (bad_input), with `name` and line or
+/// number: text that is not of the format, a row in which some numbers are missing, a coordinate
+/// above 1e9 mm, no point, too many points.
 Result<Cloud> read_cloud(std::string_view bytes, const std::string& name, double unit_mm = 1);
 
 }  // namespace gridshell::preset

@@ -1,4 +1,4 @@
-// Points as a preset lists them.
+// Data of shapes that a preset contains or names in files: points, surfaces, networks of rods.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,10 @@
 
 namespace gridshell::preset {
 
-/// Points of a curve, each of as many coordinates as its key says, mm.
+/// A table of points: one row per point, each with the coordinates that its key defines, mm.
 using Points = std::vector<std::vector<double>>;
 
-/// The first `rows` coordinates of points, as columns.
+/// The first `rows` coordinates of each point as a column.
 template <int rows>
 Eigen::Matrix<double, rows, Eigen::Dynamic> matrix_of(const Points& points) {
   Eigen::Matrix<double, rows, Eigen::Dynamic> matrix(rows, points.size());
@@ -24,30 +24,31 @@ Eigen::Matrix<double, rows, Eigen::Dynamic> matrix_of(const Points& points) {
   return matrix;
 }
 
-/// What came of a file.
+/// Report on a file that was read.
 struct FileReport {
-  std::string text;                ///< one sentence: its contents, its size, its unit
-  std::vector<std::string> notes;  ///< what may not be as it was meant
+  std::string text;                ///< one sentence on its contents, size and unit
+  std::vector<std::string> notes;  ///< sentences on what is probably a mistake
 };
 
-/// A surface that a file gives, mm: heights over a rectangular grid, or triangles.
+/// A surface, mm: heights over a rectangular grid, or triangles.
 struct SurfaceData {
-  std::vector<double> x, y;                   ///< of a grid, rising
-  Points z;                                   ///< its heights, a row for every y
-  Points vertices;                            ///< x, y, z
-  std::vector<std::array<int, 3>> triangles;  ///< numbers of their vertices
+  std::vector<double> x, y;                   ///< coordinates of the grid, rising
+  Points z;                                   ///< heights over the grid, one row per y
+  Points vertices;                            ///< vertices of the triangles: x, y, z
+  std::vector<std::array<int, 3>> triangles;  ///< indices of their vertices
 
   bool is_mesh() const { return !triangles.empty(); }
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
-/// Replaces a joint's point in a row of joint_laws: the row is of all joints without one.
+/// Value of a row of joint_laws instead of a point: the law of all joints without their own row.
 inline constexpr double every_joint = -1;
 
-/// End condition of a rod: prescribed position; direction too; twist angle too.
+/// End condition of a rod: position prescribed (pinned); direction, too (tangent); twist angle, too
+/// (clamped).
 enum class EndKind { pinned, tangent, clamped };
 
-/// What a network's rod has of its own: a key of [rod] and its number, true: 1, false: 0.
+/// A key of [rod] that a single rod of a network has with another value; true: 1, false: 0.
 struct RodValue {
   int rod = 0;
   std::string key;
@@ -58,16 +59,19 @@ struct RodValue {
 /// there.
 struct NetworkData {
   Points points;                       ///< x, y, z, mm
-  std::vector<std::vector<int>> rods;  ///< each the numbers of its points in order
-  std::vector<double> diameters;       ///< one per rod, mm, 0: that of [rod]; empty: all that
-  std::vector<RodValue> own;           ///< else of single rods, in the order of these
-  Points supports;                     ///< number of a point and where it goes: x, y, z, mm
-  Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
+  std::vector<std::vector<int>> rods;  ///< indices of the points of each rod, in order
+  std::vector<double> diameters;       ///< diameter of each rod, mm, 0: that of [rod]; may be empty
+  std::vector<RodValue> own;           ///< other keys of single rods, in the order of the rods
+  /// Rows (point) or (point, x, y, z): a supported point, and its actuated position, mm.
+  Points supports;
+  /// Rows (point of a support, kx, ky, kz): a support on a spring, N/mm.
+  Points springs;
   std::vector<int> free;  ///< indices of points at free ends of rods
-  /// A joint's point (every_joint: all without a row), its shear_Nmm and twist_Nmm (below 0:
-  /// rigid), and its eccentricity_mm, if it differs from the preset's.
+  /// Rows (point, shear_Nmm, twist_Nmm) or (point, shear_Nmm, twist_Nmm, eccentricity_mm): the law
+  /// of a joint, below 0: rigid; point every_joint: the law of all joints without a row.
   Points joint_laws;
-  Points holds;  ///< a rod, 0 (its start) or 1 (its end), the number of an EndKind
+  /// Rows (rod, 0 for its start or 1 for its end, index of an EndKind): constraints of single ends.
+  Points holds;
 
   bool empty() const { return rods.empty(); }
 };
@@ -84,8 +88,9 @@ inline bool has_closed_rods(const NetworkData& network) {
       network.rods, [](const auto& rod) { return rod.size() > 2 && rod.front() == rod.back(); });
 }
 
-// Both as tables of a preset: visit(key, member, whether it must be there).
+// Surfaces and networks as tables of a preset.
 
+/// Calls visit(key, member, required) for each member of a grid, or, if `mesh`, of a mesh.
 template <RecordOf<SurfaceData> Data, class Visit>
 void each_part(Data& data, bool mesh, const Visit& visit) {
   if (mesh) {
@@ -98,6 +103,7 @@ void each_part(Data& data, bool mesh, const Visit& visit) {
   }
 }
 
+/// Calls visit(key, member, required) for each member of a network.
 template <RecordOf<NetworkData> Data, class Visit>
 void each_part(Data& data, bool, const Visit& visit) {
   visit("points_mm", data.points, true);

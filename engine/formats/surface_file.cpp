@@ -11,6 +11,7 @@
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/plain_text.h"
+#include "engine/formats/table_file.h"
 
 namespace gridshell::preset {
 
@@ -23,7 +24,7 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
                      std::isfinite(value) ? "too large" : "not a number");
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
-  // a separate triangle adds three vertices
+  // in a file of separate triangles each has three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
     return invalid("{}: got more than {} vertices, expected fewer", place, most_vertices);
   number_.push_back(found->second);
@@ -37,7 +38,8 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return invalid("{}: got a vertex that is none of the {} before it", place, number_.size());
+      return invalid("{}: got the number of no vertex, expected one of the {} before it", place,
+                     number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
@@ -61,14 +63,14 @@ static_assert(std::endian::native == std::endian::little, "numbers are read as t
 
 constexpr std::size_t header = 84, triangle = 50;
 
-/// The number of triangles that a binary file says it has.
+/// The number of triangles in the header of a binary file.
 std::size_t count_in(std::string_view bytes) {
   std::uint32_t count = 0;
   if (bytes.size() >= header) std::memcpy(&count, bytes.data() + 80, sizeof(count));
   return count;
 }
 
-/// A corner; the third ends its triangle.
+/// Adds a corner; every third one completes a triangle.
 Result<void> add_corner(MeshBuilder& builder, const std::vector<double>& xyz,
                         const std::string& place) {
   if (auto added = builder.add_vertex(xyz, place); !added) return added;
@@ -116,10 +118,10 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
 
 constexpr std::size_t most_heights = 100000, least_side = 4;
 
-/// The values that a coordinate takes, rising; what differs by round-off is one.
-std::vector<double> values_of(const Points& points, std::size_t coordinate) {
+/// The different values of a coordinate, rising; values that differ by round-off are merged.
+std::vector<double> values_of(const NumberTable& table, std::size_t column) {
   std::vector<double> values;
-  for (const auto& point : points) values.push_back(point[coordinate]);
+  for (std::size_t row = 0; row < table.rows(); ++row) values.push_back(table.at(row, column));
   std::ranges::sort(values);
   const double alike = 1e-6 * (values.back() - values.front());
   values.erase(
@@ -135,41 +137,42 @@ std::size_t nearest(const std::vector<double>& values, double value) {
   return k == values.size() || value - values[k - 1] < values[k] - value ? k - 1 : k;
 }
 
-/// What programs write where there is no height.
-bool marks_a_hole(double z) {
+/// Whether programs write this number, here times `scale`, for a missing height.
+bool marks_a_hole(double z, double scale) {
   for (const double mark : {-9999.0, -99999.0, -999999.0, -32767.0, -32768.0})
-    if (z == mark) return true;
-  return std::abs(z) > 1e30;
+    if (z == mark * scale) return true;
+  return std::abs(z) > 1e30 * scale;
 }
 
 Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name, double unit_mm) {
-  std::vector<int> lines;
-  TRY(points, points_in(bytes, name, {"x", "y", "z"}, {}, &lines, unit_mm));
-  for (std::size_t k = 0; k < points->size(); ++k)
-    if (const double z = (*points)[k][2] / unit_mm; marks_a_hole(z))
+  const std::vector<TableColumn> xyz{{"x"}, {"y"}, {"z"}};
+  TRY(table, read_table(bytes, name, xyz, {.unit_mm = unit_mm}));
+  const std::size_t points = table->rows();
+  for (std::size_t k = 0; k < points; ++k)
+    if (const double z = table->at(k, 2), scale = table->scale[2]; marks_a_hole(z, scale))
       return invalid(
           "{}:{}: got a height of {:g}, which marks a hole, expected a complete rectangle", name,
-          lines[k], z);
-  if (points->size() > most_heights)
-    return invalid("{}: got {} points, expected at most {}", name, points->size(), most_heights);
-  SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
+          table->lines[k], z / scale);
+  if (points > most_heights)
+    return invalid("{}: got {} points, expected at most {}", name, points, most_heights);
+  SurfaceData grid{values_of(*table, 0), values_of(*table, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
     return invalid(
         "{}: got {} different x and {} different y, expected a grid of at least 4 x 4 points", name,
         columns, rows);
-  const auto holds = fmt::format("{} points on a grid of {} x {}", points->size(), columns, rows);
+  const auto holds = fmt::format("{} points on a grid of {} x {}", points, columns, rows);
   // scattered points form a grid with as many nodes as the square of their number
-  if (columns * rows > 4 * points->size())
+  if (columns * rows > 4 * points)
     return invalid("{}: got {}, expected a complete rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
-  for (std::size_t k = 0; k < points->size(); ++k) {
-    const auto& point = (*points)[k];
-    double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
+  for (std::size_t k = 0; k < points; ++k) {
+    const double x = table->at(k, 0), y = table->at(k, 1);
+    double& z = grid.z[nearest(grid.y, y)][nearest(grid.x, x)];
     if (!std::isnan(z))
-      return invalid("{}:{}: got a second point at ({:g}, {:g}), expected one", name, lines[k],
-                     point[0], point[1]);
-    z = point[2];
+      return invalid("{}:{}: got a second point at ({:g}, {:g}), expected one", name,
+                     table->lines[k], x, y);
+    z = table->at(k, 2);
   }
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < columns; ++i)
@@ -203,8 +206,9 @@ std::string mesh_error(const SurfaceData& mesh) {
   return "";
 }
 
-/// Each function reads a complete file; `name` is its name in messages. Errors (bad_input): text
-/// that is not of the format, with its line or the number of its vertex or triangle.
+// Each of the following functions reads a complete file; `name` is its name in messages. Errors
+// (bad_input): text that is not of the format, with its line or the number of its vertex or
+// triangle.
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name, double unit_mm) {
   MeshBuilder builder(unit_mm);
   return read_obj_lines(
@@ -231,7 +235,7 @@ Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, do
 }
 
 Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, double unit_mm) {
-  // a binary file may start with "solid" too; its size distinguishes it
+  // a binary file may start with "solid", too, but has a size that fits its number of triangles
   if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
     return read_binary(bytes, name, unit_mm);
   std::string storage;

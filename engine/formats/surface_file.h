@@ -1,4 +1,4 @@
-// A triangle mesh while its file is read: checks that all formats share.
+// Surfaces in files of users: heights over a grid, triangle meshes.
 #pragma once
 
 #include <map>
@@ -12,7 +12,8 @@
 
 namespace gridshell::preset {
 
-/// Gathers vertices and polygons; `place` begins every error: "dome.obj:17".
+/// Builds a triangle mesh from the vertices and polygons of a file. Errors start with `place`:
+/// "dome.obj:17".
 class MeshBuilder {
  public:
   static constexpr std::size_t most_vertices = 500000, most_triangles = 1000000;
@@ -21,34 +22,33 @@ class MeshBuilder {
 
   /// Number of vertices in the file, including those with equal positions.
   std::size_t vertices() const { return number_.size(); }
-  /// Adds a vertex; vertices at equal positions become one. Errors (bad_input): a coordinate that
+  /// Adds a vertex; vertices at equal positions are merged. Errors (bad_input): a coordinate that
   /// is not finite or above 1e9, too many vertices.
   Result<void> add_vertex(std::vector<double> xyz, const std::string& place);
-  /// A convex polygon by its vertices as the file counts them, from 0; it becomes a fan without
-  /// triangles whose corners are one. Errors (bad_input): fewer than three corners, a vertex that
-  /// is not there, too many.
+  /// Adds a convex polygon as a fan of triangles, without those that have equal corners. `corners`:
+  /// indices of vertices in the file, from 0. Errors (bad_input): fewer than three corners, a
+  /// vertex that does not exist, too many triangles.
   Result<void> add_polygon(const std::vector<long>& corners, const std::string& place);
-  /// Errors (bad_input): there is no triangle.
+  /// The mesh. Errors (bad_input): there is no triangle.
   Result<SurfaceData> take(const std::string& name);
 
  private:
   double unit_mm_;
   SurfaceData mesh_;
-  std::vector<int> number_;                // in the mesh, of every vertex of the file
-  std::map<std::vector<double>, int> at_;  // the vertex at a position
+  std::vector<int> number_;                // index in the mesh of every vertex of the file
+  std::map<std::vector<double>, int> at_;  // index of the vertex at each position
 };
 
-// Surfaces in files that a user brings: heights over a grid, meshes of triangles.
-
-/// The largest file of a mesh that is read.
+/// Largest size of a file of a mesh, in bytes.
 inline constexpr std::size_t largest_mesh_file = std::size_t(64) << 20;
 
 /// Reads a file in the format of its name's ending: .csv and .txt contain heights, a point x, y, z
 /// per line in any order (a table, table_file.h), at all nodes of a rectangular grid of 4 x 4 or
 /// more; .obj, .ply and .stl contain triangles, with vertices at equal positions merged. Errors
 /// (bad_input), with `name` and the line or the number of the element: text that is not of the
-/// format, NaN, a node of the grid without a point or with two, more than 100 000 points or 200 000
-/// triangles, another ending. `unit_mm` is the unit of a file that names none.
+/// format, NaN, a node of the grid without a point or with two, more than 100 000 heights, 500 000
+/// vertices or 1 000 000 triangles, another ending. `unit_mm` is the unit of a file that names
+/// none.
 Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name,
                                  double unit_mm = 1);
 

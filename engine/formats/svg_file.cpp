@@ -21,14 +21,14 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// Numbers and commands of an attribute, one after the other.
+/// Reads numbers and commands of an attribute, one after the other.
 class Words {
  public:
   explicit Words(std::string text) : text_(std::move(text)), rest_(text_) {}
   Words(const Words&) = delete;
 
   bool at_end() { return skip(), rest_.empty(); }
-  /// The command that is next, if it is no number.
+  /// The next command; empty: a number is next.
   std::optional<char> command() {
     skip();
     if (rest_.empty() || !std::isalpha((unsigned char)rest_.front())) return std::nullopt;
@@ -66,10 +66,10 @@ class Words {
 
 constexpr int samples_of_a_curve = 64;
 
-/// The lines of a path while it is read.
+/// Reads the lines of a path.
 class PathReader {
  public:
-  /// What is wrong; empty: nothing.
+  /// Reads the text of a path. Returns the error, or an empty text.
   std::string read(const std::string& text) {
     Words words(text);
     char command = 0;
@@ -119,7 +119,8 @@ class PathReader {
     last_ = kind;
     return "";
   }
-  /// The last control point mirrored at the current point, if the last piece was such a curve.
+  /// The last control point mirrored at the current point if the last command is one of `curves`,
+  /// else the current point.
   Point mirrored(std::string_view curves) const {
     return curves.find(last_) == curves.npos ? at_ : Point(2 * at_ - control_);
   }
@@ -136,7 +137,7 @@ class PathReader {
     cubic(at_ + 2.0 / 3 * (a - at_), to + 2.0 / 3 * (a - to), to);
     control_ = a;
   }
-  /// From end points to centre and angles, as SVG 1.1, appendix F.6.5, says.
+  /// An arc from its end points to centre and angles, by SVG 1.1, appendix F.6.5.
   void arc(double rx, double ry, double turned_deg, bool large, bool sweep, const Point& to) {
     const Point from = at_;
     if (from == to) return;
@@ -155,6 +156,7 @@ class PathReader {
     double swept = angle(-half) - begin;
     if (sweep && swept < 0) swept += 2 * M_PI;
     if (!sweep && swept > 0) swept -= 2 * M_PI;
+    if (!std::isfinite(swept)) return line(to);
     const Point centre = turn * middle + 0.5 * (from + to);
     const int steps = std::max(1, int(std::ceil(std::abs(swept) * 180 / M_PI)));
     for (int k = 1; k < steps; ++k) {
@@ -170,7 +172,7 @@ class PathReader {
   char last_ = 0;
 };
 
-/// "translate(3 4) rotate(30)"; nothing where it is not understood.
+/// The transform of a text such as "translate(3 4) rotate(30)"; empty: it is not supported.
 std::optional<Eigen::Affine2d> transform_of(std::string_view text) {
   Eigen::Affine2d whole = Eigen::Affine2d::Identity();
   while (text.find('(') != text.npos) {
@@ -214,7 +216,7 @@ std::optional<Eigen::Affine2d> transform_of(std::string_view text) {
 struct Tag {
   std::string name;
   std::map<std::string, std::string> attributes;
-  bool ends = false, alone = false;  ///< </g>, <path/>
+  bool ends = false, alone = false;  ///< an end tag </g>; an empty element <path/>
 
   std::string get(const std::string& key) const {
     const auto found = attributes.find(key);
@@ -248,7 +250,7 @@ Tag tag_of(std::string_view text) {
   return tag;
 }
 
-/// Size of a unit in mm; 0: it is none of a length.
+/// Size of a unit in mm; 0: it is no unit of length.
 double unit_of(std::string_view unit) {
   if (unit == "pt") return 25.4 / 72;
   if (unit == "pc") return 25.4 / 6;
@@ -264,13 +266,14 @@ void take_unit(const Tag& svg, PlanDrawing& drawing) {
   std::vector<double> sides;
   while (const auto value = box.number()) sides.push_back(*value);
   const double unit = unit_of(width.rest());
-  if (!wide || unit <= 0 || width.rest().empty()) return;
+  if (!wide || *wide <= 0 || unit <= 0 || width.rest().empty()) return;
   const double over = sides.size() == 4 && sides[2] > 0 ? sides[2] : *wide;
   drawing.unit_mm = *wide * unit / over;
   drawing.unit = fmt::format("{} wide as it says", svg.get("width"));
 }
 
-/// The lines of a shape; nothing where the tag is none. `wrong`: a path that is none.
+/// The lines of a shape; empty if the tag is no shape. `wrong` receives the error of an invalid
+/// shape.
 std::optional<std::vector<PlanLine>> lines_of(const Tag& tag, std::string& wrong) {
   if (tag.name == "path") {
     PathReader path;
@@ -303,14 +306,14 @@ std::optional<std::vector<PlanLine>> lines_of(const Tag& tag, std::string& wrong
   return std::vector<PlanLine>{std::move(line)};
 }
 
-/// A tag that is open: its transform, and whether what is in it is drawn.
+/// The transform of an open element, and whether its contents are drawn.
 struct Level {
   Eigen::Affine2d transform = Eigen::Affine2d::Identity();
   bool drawn = true;
 };
 
-/// The position after a comment, declaration or CDATA that begins at `at`; nothing where a tag
-/// does.
+/// The position after a comment, declaration or CDATA that starts at `at`; empty: a tag starts
+/// there.
 std::optional<std::size_t> skipped(std::string_view text, std::size_t at) {
   for (const auto& [begin, end] :
        {std::pair{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}})
@@ -323,18 +326,22 @@ std::optional<std::size_t> skipped(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
+Result<PlanDrawing> read_svg(std::string_view bytes, const std::string& name) {
   static const std::set<std::string> hidden{"defs",   "symbol",  "clipPath", "mask",
                                             "marker", "pattern", "metadata"};
   static const std::set<std::string> reported{"text", "image", "use"};
+  std::string storage;
+  const std::string_view text = plain_text(bytes, storage);
   PlanDrawing drawing;
   std::map<std::string, int> others;
   std::vector<Level> levels{{}};
   bool is_svg = false;
+  std::size_t counted = 0;  // the lines of the text before this position were counted
+  long number = 1;
   for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-    const auto place = [&, at] {
-      return fmt::format("{}:{}", name, 1 + std::ranges::count(text.substr(0, at), '\n'));
-    };
+    number += std::ranges::count(text.substr(counted, at - counted), '\n');
+    counted = at;
+    const auto place = [&] { return fmt::format("{}:{}", name, number); };
     if (const auto next = skipped(text, at)) {
       at = *next;
       continue;
@@ -342,7 +349,6 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
     const auto end = text.find('>', at);
     if (end == text.npos) return invalid("{}: a tag does not end", place());
     const Tag tag = tag_of(text.substr(at + 1, end - at - 1));
-    const std::string where = place();
     at = end + 1;
     if (tag.ends) {
       if (levels.size() > 1) levels.pop_back();
@@ -351,7 +357,7 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
     if (tag.name == "svg" && !std::exchange(is_svg, true)) take_unit(tag, drawing);
     const auto transform = transform_of(tag.get("transform"));
     if (!transform)
-      return invalid("{}: transform = \"{}\" is not understood", where, tag.get("transform"));
+      return invalid("{}: transform = \"{}\" is not understood", place(), tag.get("transform"));
     std::string style = tag.get("style") + ";display:" + tag.get("display");
     std::erase(style, ' ');
     const Level level{levels.back().transform * *transform,
@@ -361,7 +367,7 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
     if (!level.drawn) continue;
     std::string wrong;
     const auto lines = lines_of(tag, wrong);
-    if (!wrong.empty()) return invalid("{}: <{}> has {}", where, tag.name, wrong);
+    if (!wrong.empty()) return invalid("{}: <{}> has {}", place(), tag.name, wrong);
     if (reported.contains(tag.name)) ++others[tag.name];
     if (!lines) continue;
     for (PlanLine line : *lines) {

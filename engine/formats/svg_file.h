@@ -1,4 +1,4 @@
-// Contents of an SVG: its shapes as polylines in one plane.
+// Reads the shapes of an SVG as polylines in one plane.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace gridshell::preset {
 
-/// Reads path (all of its commands), polygon, polyline, line, rect (its corners sharp), circle and
-/// ellipse, under the transforms that they and their groups have, y turned up. What is in defs,
-/// symbol, clipPath, mask, marker or pattern, or has display="none", is not drawn. The unit is that
-/// of the width over the viewBox; without one per pixel of 1/96 inch. Errors (bad_input), with
-/// `name` and the line: no svg, a tag that does not end, a number or a command of a path that is
-/// none.
+/// Reads path (all commands), polygon, polyline, line, rect (with sharp corners), circle and
+/// ellipse, with their transforms and those of their groups, y upwards. Shapes in defs, symbol,
+/// clipPath, mask, marker, pattern or metadata, or with display="none", are ignored. The unit is
+/// the width over the width of the viewBox; if the width has no unit, pixels of 1/96 inch. Errors
+/// (bad_input), with `name` and the line: no svg, a tag that does not end, an invalid number or
+/// command.
 Result<PlanDrawing> read_svg(std::string_view bytes, const std::string& name);
 
 }  // namespace gridshell::preset

@@ -44,7 +44,7 @@ void split(std::string_view line, char apart, Cells& cells) {
     std::string_view cell = trimmed(line.substr(0, end));
     if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
       cell = trimmed(cell.substr(1, cell.size() - 2));
-    // "x, y": the blank parts them, the comma says nothing
+    // in "x, y" the blank separates the cells, and the comma is ignored
     if (apart == ' ' && cell.size() > 1 && (cell.back() == ',' || cell.back() == ';'))
       cell.remove_suffix(1);
     cells.push_back(cell);
@@ -52,7 +52,7 @@ void split(std::string_view line, char apart, Cells& cells) {
     line.remove_prefix(end + 1);
     if (apart == ' ') line = trimmed(line);
   }
-  // a spreadsheet fills its rows up
+  // spreadsheets fill rows with empty cells
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
 }
 

@@ -10,14 +10,15 @@ namespace gridshell::preset {
 
 using Cells = std::vector<std::string_view>;
 
-/// Where the remark of a line begins ("#" or "//" outside of quotes); its length: there is none.
+/// Position at which the comment of a line starts ("#" or "//" outside quotes); without a comment
+/// the length of the line.
 std::size_t remark_at(std::string_view line);
 
 /// Splits a line into cells at `apart` (' ': any number of blanks), without blanks and quotes
 /// around them, and without empty cells at its end.
 void split(std::string_view line, char apart, Cells& cells);
 
-/// Whether a cell says that there is no number: empty, "nan", "NA", "null".
+/// Whether a cell marks a missing number: empty, "nan", "NA", "null".
 bool is_missing(std::string_view cell);
 
 /// Whether a cell has exactly one comma, between digits, and no point.
@@ -29,17 +30,18 @@ std::optional<double> decimal_number(std::string_view cell);
 /// Whether a cell is a number without a point, a comma or an exponent.
 bool is_whole(std::string_view cell);
 
-/// A column as a header names it: its letters and digits in small letters, and its unit: "x" and
-/// "mm" of "X [mm]", "x_mm" and "X (mm)", "fx" and "" of "F_x".
+/// The name of a column in a header: its letters and digits in lower case, and its unit. "X [mm]",
+/// "x_mm" and "X (mm)" have base "x" and unit "mm"; "F_x" has base "fx" and no unit.
 struct ColumnName {
   std::string base, unit;
 };
+/// The name and unit in a cell of a header.
 ColumnName column_name(std::string_view cell);
 
 /// Whether a requested column of this name contains lengths.
 bool is_length(const std::string& name);
 
-/// Whether a cell begins as a name does, and is no number.
+/// Whether a cell starts with a letter and is no number.
 bool is_name(std::string_view cell);
 
 }  // namespace gridshell::preset

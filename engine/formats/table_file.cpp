@@ -40,6 +40,7 @@ class TableReader {
           "{}:{}: the first column counts the rows: which columns are {}? Expected a first line "
           "that names them",
           name_, table_.lines.front(), names_text());
+    table_.scale = scale_;
     return std::move(table_);
   }
 
@@ -61,7 +62,7 @@ class TableReader {
     return line.starts_with('%') || line.starts_with('!') ? std::string_view() : line;
   }
 
-  /// The separator of most lines: the strongest one that all of the first lines contain.
+  /// Finds the separator of most lines, from the first lines.
   void find_separator(std::string_view text) {
     constexpr std::size_t looked_at = 100;
     std::vector<std::string_view> lines;
@@ -73,7 +74,7 @@ class TableReader {
       return !lines.empty() && std::ranges::all_of(lines, holds);
     };
     Cells cells;
-    // a title, or a row that was cut, has other signs
+    // half of the lines is enough: a title or a truncated row may have other signs
     const auto parts = [&](char apart) {
       const auto split_up = [&](std::string_view line) {
         split(line, apart, cells);
@@ -116,18 +117,18 @@ class TableReader {
       if (table_.rows() == 0 && !remark.empty()) remark_ = line;
       return {};
     }
-    // Excel's own line says what parts the cells
+    // Excel's line "sep=;" names the separator
     if (first_ && lower(trimmed(line)).starts_with("sep=")) return {};
     row_ = without_remark(line);
     split(row_, apart_, cells_);
-    // nothing but what parts cells
+    // a line of separators alone
     if (cells_.empty()) return {};
     if (cells_.size() == 1 && requested_.size() > 1 && is_whole(cells_[0]) && counts_here())
       return take_count(number);
     if (std::exchange(first_, false)) {
       const bool names = std::ranges::all_of(
           cells_, [](std::string_view cell) { return is_name(cell) || cell.empty(); });
-      // a column may have a name that is a value of another: family, rod, end
+      // a line of allowed values ("u", "begin") is a row, although these look like names
       const auto word = [&](std::string_view cell) { return is_word(cell); };
       if (names && !std::ranges::all_of(cells_, word)) return take_header(cells_, number);
       take_remark();
@@ -141,7 +142,8 @@ class TableReader {
     });
   }
 
-  /// Whether a line of one number may be a count: before all rows, or behind those counted.
+  /// Whether a line of one number may be a count of rows: before all rows, or after the rows of the
+  /// last count.
   bool counts_here() const {
     const std::size_t rows = table_.rows() + table_.empty_rows;
     return (rows == counted_from_ && !table_.by_name) || (counted_ && rows == expected_);
@@ -215,7 +217,7 @@ class TableReader {
     return text;
   }
 
-  /// What a column's unit makes of its numbers.
+  /// Sets the factor of a column from its unit.
   Result<void> take_unit(std::size_t column, const ColumnName& named, const ColumnName& requested,
                          int line) {
     const double mm = millimetres_of(named.unit);
@@ -258,7 +260,7 @@ class TableReader {
     return {};
   }
 
-  /// Whether every requested cell, or every cell of the row, says that there is no number.
+  /// Whether every requested cell, or every cell of the row, is a missing number.
   bool is_empty_row() const {
     return std::ranges::all_of(cells_, is_missing) ||
            std::ranges::all_of(place_, [&](std::size_t at) {
@@ -266,15 +268,15 @@ class TableReader {
            });
   }
 
-  /// Gives a row under a header its last cells, which are empty, as those of unknown numbers are.
+  /// Restores empty cells at the end of a row under a header: its last numbers may be unknown.
   void fill_up() {
     if (!table_.by_name || apart_ == ' ') return;
     const auto cells = std::size_t(std::ranges::count(row_, apart_)) + 1;
     if (cells == length_) cells_.resize(std::max(cells_.size(), cells));
   }
 
-  /// A row of numbers with other signs between them than most have, where no comma is a decimal
-  /// one.
+  /// Splits a row of numbers at any separator, if it has other ones than most rows and no comma is
+  /// a decimal one. Returns whether that gave the right number of cells.
   bool split_by_any() {
     const Cells cells = words_in(row_, " \t\r\f\v,;");
     const bool numbers = std::ranges::all_of(
@@ -284,7 +286,7 @@ class TableReader {
     return true;
   }
 
-  /// x, y, z with decimal commas, or x, y, z and a colour.
+  /// Whether six integers are ambiguous: x, y, z with decimal commas, or x, y, z and a colour.
   bool looks_like_commas() const {
     return apart_ == ',' && requested_.size() == 3 && cells_.size() == 6 &&
            std::ranges::all_of(cells_, is_whole);
@@ -334,11 +336,11 @@ class TableReader {
   Cells cells_;
   std::vector<std::size_t> place_;  // index of each requested column among the cells
   std::vector<double> scale_;
-  std::size_t length_ = 0;  // cells of a row
+  std::size_t length_ = 0;  // number of cells of a row
   std::string_view remark_, row_;
   bool mixed_ = false;  // no decimal comma was seen
   bool first_ = true, commas_ = false, points_ = false, numbered_ = true, counted_ = false;
-  std::size_t expected_ = 0, counted_from_ = 0;  // rows
+  std::size_t expected_ = 0, counted_from_ = 0;  // rows after the counted ones, and before them
   NumberTable table_;
 };
 

@@ -10,12 +10,12 @@ namespace gridshell {
 namespace {
 
 constexpr int points = 16;
-constexpr std::size_t most_panels = 20000;  // a function that is no function must not fill memory
+constexpr std::size_t most_panels = 20000;  // a limit of memory for functions that are not smooth
 struct Rule {
   std::array<double, points> node, weight;
 };
 
-/// nodes and weights on [-1, 1]: Newton iteration on the Legendre polynomial's recurrence
+/// Nodes and weights on [-1, 1]: Newton iteration on the Legendre polynomial's recurrence.
 Rule gauss_legendre() {
   Rule rule;
   for (int k = 0; k < points; ++k) {
@@ -62,7 +62,8 @@ double Antiderivative::panel(double a, double b) const {
 void Antiderivative::add_panel(double a, double b, double whole, double small) {
   const double middle = (a + b) / 2;
   const double left = panel(a, middle), right = panel(middle, b);
-  // the halves are better than their difference to the whole; `small` is lost in the sum
+  // the error of the halves is less than their difference from the whole; differences below `small`
+  // are lost in the total sum
   const double size = (b - a) * std::max({std::abs(f_(a)), std::abs(f_(middle)), std::abs(f_(b))});
   const bool can_halve = a < middle && middle < b && ends_.size() < most_panels;
   if (can_halve && std::abs(left + right - whole) > std::max(2e-14 * size, small)) {
@@ -88,7 +89,7 @@ double Antiderivative::inverse(double value) const {
     return {values_[k] + panel(low, t) - value, f_(t)};
   };
   const double guess = low + (high - low) * (value - values_[k]) / (values_[k + 1] - values_[k]);
-  // Newton squares its error: a step after one of 1e-10 would be lost in round-off
+  // Newton's method squares its error: after a step of 1e-10 the next would be round-off
   return bracketed_root(miss, low, high, guess, 1e-10 * (high - low));
 }
 

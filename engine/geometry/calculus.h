@@ -1,4 +1,4 @@
-// The root of a function of one variable whose slope is known.
+// Functions of one variable: roots by Newton's method, and antiderivatives by quadrature.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,10 @@
 
 namespace gridshell {
 
-/// Root in [low, high] of a function that is below zero at `low` and not at `high`, by Newton's
-/// steps from `start`, halving where one leaves what is left of the interval. `look(t)` is
-/// {value, slope}; it ends with a step of `smallest` or less, or after 200.
+/// Root in [low, high] of a function that is below zero at `low` and not below zero at `high`.
+/// Newton's method from `start`, with a bisection if a step leaves the remaining interval.
+/// `look(t)` returns {value, slope}. It ends after a step of at most `smallest`, or after 200
+/// steps.
 template <class Look>
 double bracketed_root(const Look& look, double low, double high, double start, double smallest) {
   double t = start;
@@ -26,20 +27,18 @@ double bracketed_root(const Look& look, double low, double high, double start, d
   return t;
 }
 
-// F(t) = integral of f from an origin to t, and its inverse, to machine accuracy: arc length and
-// the like.
-
-/// Gauss-Legendre quadrature on panels that are halved until they agree with their halves (also
-/// near an integrable singularity at an end).
+/// F(t) = integral of f from an origin to t, and its inverse, to machine accuracy; for arc lengths.
+/// Gauss-Legendre quadrature on panels, which are halved until the integral over a panel equals the
+/// sum over its halves, also near an integrable singularity at an end.
 class Antiderivative {
  public:
-  /// `breaks`: where f is not smooth, ascending, with the ends of its range first and last.
-  /// F is zero at `origin`, which lies in the range.
+  /// `breaks`: the positions where f is not smooth, ascending; the first and last are the ends of
+  /// its range. F is zero at `origin`, which is in the range.
   Antiderivative(std::function<double(double)> f, const std::vector<double>& breaks, double origin);
 
-  double begin() const { return ends_.front(); }  ///< of the range
-  double end() const { return ends_.back(); }
-  double operator()(double t) const;  ///< t in the range
+  double begin() const { return ends_.front(); }  ///< start of the range
+  double end() const { return ends_.back(); }     ///< end of the range
+  double operator()(double t) const;              ///< F(t), t in the range
 
   /// t with F(t) = value, for f > 0 and value in [F(begin), F(end)]: bracketed Newton iteration.
   double inverse(double value) const;

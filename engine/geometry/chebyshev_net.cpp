@@ -22,12 +22,13 @@ Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2
 
 namespace {
 
-// the series about z = 0 converges for |z| < 2.95; with steps as below the remainder is under 1e-17
+// the series about z = 0 converges for |z| < 2.95; with the steps of longest_step() the remainder
+// is below 1e-17
 constexpr int order = 36;
 using Series = std::array<double, order + 1>;
 
-/// Taylor coefficients of f along z = z0 + k t, t in [0, 1], from f and f' = df/dz at z0:
-/// z0 (n+2)(n+1) a_{n+2} + k (n+1)^2 a_{n+1} = -k^2 s_n, s those of sin f.
+/// Taylor coefficients a of f along z = z0 + k t, t in [0, 1], from f and df = df/dz at z0:
+/// z0 (n+2)(n+1) a_{n+2} + k (n+1)^2 a_{n+1} = -k^2 s_n, where s are the coefficients of sin f.
 Series shear_series(double z0, double k, double f, double df) {
   Series a{}, sine{}, cosine{};
   a[0] = f;
@@ -41,7 +42,7 @@ Series shear_series(double z0, double k, double f, double df) {
         cosine[n] -= j * a[j] * sine[n - j] / n;
       }
     }
-    // at the pole the equation is of first order in the coefficients
+    // at the pole (z0 = 0) the recurrence has one term less
     if (z0 == 0 && n > 0) a[n + 1] = -k * sine[n] / ((n + 1.0) * (n + 1.0));
     if (z0 != 0)
       a[n + 2] = -k * (k * sine[n] + (n + 1.0) * (n + 1.0) * a[n + 1]) / (z0 * (n + 2) * (n + 1));
@@ -55,14 +56,14 @@ double sum(const Series& a) {
   return total;
 }
 
-/// sum of n a_n: k df/dz at the end of the step
+/// Sum of n a_n: k df/dz at the end of the step.
 double sum_derivative(const Series& a) {
   double total = 0;
   for (int n = order; n >= 1; --n) total += n * a[n];
   return total;
 }
 
-/// The rod v = const on the unit sphere, at u.
+/// State of the rod v = const on the unit sphere at position u.
 struct Rod {
   double u = 0, f = M_PI_2, df = -1;
   Eigen::Matrix3d frame;  ///< columns C, T, N
@@ -96,14 +97,14 @@ void advance(Rod& rod, double v, double h) {
   rod.f = sum(a);
 }
 
-/// Longest step from u: short in z against the distance to the singularities of f and, once away
-/// from z = 0 (where solutions other than ours are singular), against that too.
+/// Longest step from u: in z it is short compared with the distance to the singularities of f and,
+/// except at z = 0, with the distance to z = 0, where other solutions of the equation are singular.
 double longest_step(double u, double v) {
   if (u == 0) return std::min(1.6, 1.0 / v);
   return std::min({1.6, 0.5 / v, 0.5 * u});
 }
 
-/// the rod v >= 0 from u = 0 to u >= 0
+/// The state at u >= 0 of the rod v = const >= 0.
 Rod follow(double u, double v) {
   Rod rod;
   rod.frame << 0, 1, 0, std::sin(v), 0, std::cos(v), std::cos(v), 0, -std::sin(v);
@@ -115,12 +116,13 @@ Rod follow(double u, double v) {
   return rod;
 }
 
-// tangents this near to parallel (rad) count as a fold
+// tangents with a smaller angle between them (rad) count as a fold
 constexpr double least_sine = 1e-6;
 
 tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
-  return invalid("curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm is past it",
-                 curve, name, at < 0 ? -half : half, name, at);
+  return invalid(
+      "curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm is past its end", curve,
+      name, at < 0 ? -half : half, name, at);
 }
 
 tl::unexpected<Error> folds(double u, double v, double cosine) {
@@ -150,7 +152,7 @@ Result<NetPoint> SphereNet::at(double u, double v) const {
   if (!(a * b < fold))
     return invalid(
         "the net on the sphere of radius {:g} mm folds (shear angle {}) where u v = {:.7g} "
-        "mm^2; (u, v) = ({:g}, {:g}) mm is past it",
+        "mm^2; (u, v) = ({:g}, {:g}) mm is past its end",
         radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
         ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v);
   const Rod rod = follow(a, b);
@@ -161,7 +163,7 @@ Result<NetPoint> SphereNet::at(double u, double v) const {
   point.tangent_v = std::cos(rod.f) * t + std::sin(rod.f) * n;
   point.omega = rod.f;
   point.K = 1 / (radius_ * radius_);
-  // mirror planes x = 0 and y = 0; a mirror turns one tangent and the angle
+  // the other quadrants are mirror images; a mirror inverts one tangent, omega becomes pi - omega
   const auto mirror = [&](int axis, Eigen::Vector3d& turned) {
     for (Eigen::Vector3d* vector : {&point.position, &point.tangent_u, &point.tangent_v})
       (*vector)[axis] = -(*vector)[axis];
@@ -183,7 +185,7 @@ Result<TranslationNet> TranslationNet::make(const Eigen::Matrix3Xd& x, const Eig
 }
 
 Result<void> TranslationNet::check_open() const {
-  // the normal turns over where tangents pass through parallel
+  // the normal changes its sign where the tangents become parallel
   constexpr int samples = 128;
   Eigen::Matrix3Xd along_u(3, samples + 1), along_v(3, samples + 1);
   const auto place = [](double half, int k) { return half * (2.0 * k / samples - 1); };

@@ -17,7 +17,7 @@ struct NetPoint {
   double omega = 0;           ///< shear angle between C_u and C_v, rad, in (0, pi)
   double K = 0;               ///< Gauss curvature, mm^-2; Gauss' equation: omega_uv = -K sin omega
 
-  /// C_u x C_v / sin omega, unit
+  /// Unit normal C_u x C_v / sin omega.
   Eigen::Vector3d normal() const;
 };
 
@@ -26,17 +26,16 @@ class ChebyshevNet {
  public:
   virtual ~ChebyshevNet() = default;
 
-  /// The net at (u, v). Errors (bad_input): where the net folds (omega reaches 0 or pi) or its
-  /// surface ends, with the position where it does and the given (u, v).
+  /// The net at (u, v). Errors (bad_input): the net folds (omega reaches 0 or pi) or its surface
+  /// ends before (u, v), with the position where it does.
   virtual Result<NetPoint> at(double u, double v) const = 0;
 };
 
-/// C at every column of `uv`. Errors (bad_input): those of the net.
+/// Positions C at every column of `uv`, 3 x n, mm. Errors (bad_input): those of the net.
 Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);
 
-// Chebyshev's net on the sphere, from two orthogonal great circles through the pole.
-
-/// Centre at the origin, pole (u = v = 0) at +z, u-axis in the xz-plane; radius rho.
+/// Chebyshev's net on the sphere, whose axes are two orthogonal great circles through the pole. The
+/// centre is the origin, the pole (u = v = 0) is at +z, the u-axis in the xz-plane; radius rho.
 ///
 /// The shear angle is omega = f(uv/rho^2), f' + z f'' = -sin f, f(0) = pi/2. On the unit sphere a
 /// rod v = const has the Darboux frame C' = T, T' = -C + g N, N' = -g T with N = C x T and geodesic
@@ -44,7 +43,7 @@ Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2
 /// Taylor series (one step covers the hemisphere), to machine accuracy.
 class SphereNet final : public ChebyshevNet {
  public:
-  /// uv/rho^2 at which the net folds: the zero of f. -uv/rho^2 there is where f reaches pi.
+  /// uv/rho^2 at which the net folds: the zero of f. At minus this value f reaches pi.
   static constexpr double fold = 1.8615916773;
 
   explicit SphereNet(double radius_mm) : radius_(radius_mm) {}
@@ -58,10 +57,8 @@ class SphereNet final : public ChebyshevNet {
   double radius_;
 };
 
-// Translation nets C(u, v) = X(u) + Y(v).
-
-/// The sum of two unit-speed curves is a Chebyshev net with C_uv = 0; u = v = 0 at their middles,
-/// whose sum lies where the curves put it.
+/// Translation net C(u, v) = X(u) + Y(v): the sum of two unit-speed curves is a Chebyshev net with
+/// C_uv = 0. u = v = 0 is at the middles of the curves; the net is not moved to the origin.
 class TranslationNet final : public ChebyshevNet {
  public:
   /// `x` and `y`: points of the two curves, 3 x n, mm. Errors (bad_input): those of
@@ -69,8 +66,8 @@ class TranslationNet final : public ChebyshevNet {
   /// become parallel.
   static Result<TranslationNet> make(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y);
 
-  double half_u() const { return x_.half_length(); }  ///< the net exists for |u| <= half_u
-  double half_v() const { return y_.half_length(); }  ///< and |v| <= half_v
+  double half_u() const { return x_.half_length(); }  ///< the net exists for |u| <= half_u ...
+  double half_v() const { return y_.half_length(); }  ///< ... and |v| <= half_v
   Result<NetPoint> at(double u, double v) const override;
 
  private:

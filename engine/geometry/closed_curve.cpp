@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// root of g = {value, slope} in [low, high], where it changes sign
+/// Root in [low, high] of g = {value, slope}, which has opposite signs at the two ends.
 double root(const std::function<Vector2d(double)>& g, double low, double high) {
   const double sign = g(low)[0] < 0 ? 1 : -1;
   const auto rising = [&](double t) -> Vector2d { return sign * g(t); };
@@ -50,9 +50,9 @@ bool segments_meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, cons
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
-/// t where the ray from the origin at `angle` meets the curve; all of them
+/// All t at which the ray from the origin at `angle` meets the curve.
 std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
-  // turned so that the ray is the positive x-axis
+  // axes along and across the ray
   const Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
   std::vector<double> found;
   std::vector<double> t;
@@ -81,7 +81,7 @@ Result<void> check_star(const ClosedCurve& curve, const char* name, Corresponden
         "the positive x-axis meets the {} boundary more than once: arc lengths need one "
         "position to start",
         name);
-  // seen from the origin a star turns in one direction only
+  // each ray meets the curve once if its polar angle always grows
   constexpr int samples = 2048;
   for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
     const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
@@ -120,11 +120,16 @@ Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponen
     return invalid("half axes: got {:g} and {:g} mm, expected above 0", a, b);
   if (!(exponent >= 1 && exponent <= 100))
     return invalid("the superellipse's exponent: got {:g}, expected 1 to 100", exponent);
-  const auto at = [a, b, n = exponent](double t) {
+  // powers of half axes that are far from 1 mm are not numbers
+  constexpr double largest_power = 100;
+  const double power = exponent * std::max(std::abs(std::log10(a)), std::abs(std::log10(b)));
+  const auto at = [a, b, n = exponent, scaled = power > largest_power](double t) {
     const double cosine = std::cos(t), sine = std::sin(t);
-    const double p = std::pow(std::abs(cosine / a), n), q = std::pow(std::abs(sine / b), n);
-    // r = (p + q)^(-1/n), and dp/dt = -n p tan t, dq/dt = n q cot t
-    const double r = std::pow(p + q, -1 / n);
+    const double u = std::abs(cosine / a), v = std::abs(sine / b);
+    const double size = scaled ? std::max(u, v) : 1;
+    const double p = std::pow(u / size, n), q = std::pow(v / size, n);
+    // r = (p + q)^(-1/n) / size, and dp/dt = -n p tan t, dq/dt = n q cot t
+    const double r = std::pow(p + q, -1 / n) / size;
     const double dp = p == 0 ? 0 : -p * sine / cosine, dq = q == 0 ? 0 : q * cosine / sine;
     const double dr = -r * (dp + dq) / (p + q);
     return Point{Vector2d(r * cosine, r * sine),
@@ -148,7 +153,8 @@ Result<ClosedCurve> ClosedCurve::polygon(const Eigen::Matrix2Xd& given) {
 
 Result<ClosedCurve> ClosedCurve::spline(const Eigen::Matrix2Xd& given) {
   TRY(points, cleaned(given));
-  // an end of a spline is forgotten by a factor 0.27 a knot: after 40 it is periodic to round-off
+  // the influence of a spline's end falls by a factor 0.27 per knot: 40 knots away the spline
+  // through the points repeated around is periodic to round-off
   constexpr Eigen::Index around = 40;
   const Eigen::Index n = points->cols();
   Eigen::Matrix2Xd wound(2, n + 2 * around + 1);
@@ -191,7 +197,7 @@ std::vector<double> ClosedCurve::crossings(int axis, double c) const {
   const std::vector<double> t = samples();
   std::vector<double> found;
   for (std::size_t k = 0; k + 1 < t.size(); ++k) {
-    // the end of the last piece is the start of the first, exactly
+    // the last piece ends exactly at the start of the first
     const bool first = above(t[k]), last = above(k + 2 == t.size() ? t[0] : t[k + 1]);
     double low = t[k], high = t[k + 1];
     if (first != last) {
@@ -199,7 +205,7 @@ std::vector<double> ClosedCurve::crossings(int axis, double c) const {
       continue;
     }
     if (!(g(low)[1] * g(high)[1] < 0)) continue;
-    // a turn in between: the curve may cross the line and come back
+    // the slope changes sign in between: the curve may cross the line twice
     const bool falling = g(low)[1] < 0;
     for (int halving = 0; halving < 60; ++halving) {
       const double middle = (low + high) / 2;
@@ -285,13 +291,13 @@ std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
 }
 
 std::vector<int> rim_of(const Eigen::Matrix2Xd& points) {
-  constexpr double on_an_edge = 1e-6;  // of its length
+  constexpr double on_an_edge = 1e-6;  // distance from an edge, over its length
   const std::vector<int> corners = hull_of(points);
   std::vector<int> rim;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Eigen::Vector2d first = points.col(corners[k]),
                           edge = points.col(corners[(k + 1) % corners.size()]) - first;
-    std::map<double, int> on_edge;  // by how far along it
+    std::map<double, int> on_edge;  // points by their position along the edge
     for (int point = 0; point < int(points.cols()); ++point) {
       const Eigen::Vector2d at = points.col(point) - first;
       const double along = at.dot(edge) / edge.squaredNorm();

@@ -34,7 +34,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::string text_of(RodStop stop) {
   switch (stop) {
     case RodStop::none:
-      return "no rod comes there";
+      return "a region that no rod reaches";
     case RodStop::rim:
       return "the surface's rim";
     case RodStop::hole:
@@ -57,21 +57,21 @@ MarchedGrid::MarchedGrid(double chord, int most) : chord_(chord), most_(most) {
   nodes_.resize(std::size_t(2 * most + 1) * std::size_t(2 * most + 1));
 }
 
-/// One march outwards, by |i| + |j|.
+/// Computes the nodes of a grid outwards, in the order of |i| + |j|.
 struct MarchedGrid::March {
   MarchedGrid& grid;
   const Surface& surface;
   const NetPlace& place;
-  const Barriers* lines;    // null: of a grid that follows another
-  const MarchedGrid* lead;  // that one
+  const Barriers* lines;    // lines of the mesh; null if `lead` is given
+  const MarchedGrid* lead;  // grid of twice the chord that this one follows; or null
   double least_angle = 0;
   int margin = 0;  // nodes outside rims
   PointGrid taken{grid.chord_};
-  std::vector<std::array<int, 2>> accepted{};  // by their numbers in it
+  std::vector<std::array<int, 2>> accepted{};  // (i, j) of the nodes in `taken`, by their numbers
 
-  /// Whether a node that is none of those around (i, j) lies at p. Of a net that is there already
-  /// some node is nearer than 0.75 chords to almost every point; where rods cross at the least
-  /// angle, those three steps along the short diagonal are no nearer than 6 sin(angle / 2).
+  /// Whether the net already covers p with nodes that are not around (i, j). Almost every point of
+  /// a net has a node within 0.75 chords. Nodes three steps away along the short diagonal are at
+  /// least 6 sin(angle / 2) chords away, so a smaller distance is used if the least angle is small.
   bool is_taken(int i, int j, const Eigen::Vector3d& p) const {
     const double as_near = std::min(0.75, 4 * std::sin(0.5 * least_angle));
     return taken.any_near(p, [&](int k) {
@@ -101,7 +101,7 @@ struct MarchedGrid::March {
     accepted.push_back({i, j});
   }
 
-  /// On along the rod through (a, b), away from the axes.
+  /// The next point on the geodesic continuation of the rod through (a, b), away from the axes.
   std::optional<Eigen::Vector3d> straight(int a, int b, int step_u, int step_v) const {
     const Eigen::Vector3d& here = grid.at(a, b).p;
     if (a == 0 && b == 0)
@@ -112,7 +112,8 @@ struct MarchedGrid::March {
     if (!grid.linked(a, b, -step_u, -step_v)) return std::nullopt;
     const Eigen::Vector3d last = (here - grid.at(a - step_u, b - step_v).p).normalized();
     Eigen::Vector3d along = last;
-    // a rod that was bent sideways continues along its tangent, half a chord after its last one
+    // a rod that was no geodesic continues along its tangent at (a, b), extrapolated from the last
+    // two chords, whose middles are half a chord and 1.5 chords away
     const auto by = grid.at(a, b).by;
     const bool bent = by != (step_u != 0 ? Node::straight_u : Node::straight_v);
     if (bent && grid.linked(a - step_u, b - step_v, -step_u, -step_v))
@@ -124,7 +125,8 @@ struct MarchedGrid::March {
     return geodesic_chord(surface, here, along, grid.chord_);
   }
 
-  /// Continues from the neighbour towards the axis; returns why not.
+  /// Computes a node as the geodesic continuation from its neighbour towards the axis. Returns the
+  /// reason if that is not possible.
   RodStop go_straight(int i, int j, int step_u, int step_v) {
     const int a = i - step_u, b = j - step_v;
     const auto p = straight(a, b, step_u, step_v);
@@ -139,7 +141,8 @@ struct MarchedGrid::March {
     return RodStop::none;
   }
 
-  /// Whether the four corners of the cell behind (i, j) but itself are there and joined, or linked.
+  /// Whether the three other corners of the cell between (i, j) and the axes are connected: by
+  /// rods, or, if not `rods`, also by continuations of rods.
   bool has_cell(int i, int j, bool rods) const {
     const int a = i - sign(i), b = j - sign(j);
     const auto to = [&](int step_u, int step_v) {
@@ -173,7 +176,7 @@ struct MarchedGrid::March {
       }
       try_u = from_u == RodStop::none, try_v = from_v == RodStop::none;
     }
-    // where rods have come too close together, others do not continue next to them
+    // next to a rod that ended because of its angle other rods do not continue
     if (try_u && sv != 0 && grid.at(i, j - sv).stop == RodStop::angle) return RodStop::angle;
     if (try_v && su != 0 && grid.at(i - su, j).stop == RodStop::angle) return RodStop::angle;
     if (try_u && (stop = go_straight(i, j, su, 0)) == RodStop::none) return stop;
@@ -181,7 +184,7 @@ struct MarchedGrid::March {
     return stop;
   }
 
-  /// A node outside a rim, from what is there towards the axes.
+  /// Computes a node outside a rim from its neighbours towards the axes.
   void go_beyond(int i, int j) {
     constexpr double least_sine = 0.12;
     const int su = sign(i), sv = sign(j);
@@ -204,10 +207,10 @@ struct MarchedGrid::March {
     }
   }
 
-  /// The nodes of a grid that follows one of twice the chord.
+  /// Computes a node of a grid that follows `lead`.
   void follow_to(int i, int j) {
     const int su = sign(i), sv = sign(j);
-    // of what is straight there the half steps are straight
+    // geodesic where the node of `lead` is one
     const bool on_u = j % 2 == 0, on_v = i % 2 == 0;
     const auto& next_u = lead->at((i + (on_v ? 0 : su)) / 2, j / 2);
     const auto& next_v = lead->at(i / 2, (j + (on_u ? 0 : sv)) / 2);
@@ -307,7 +310,7 @@ bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, doub
          !lines_->crossed(p, q);
 }
 
-/// The net continued from the node (i, j) to a position in a neighbouring cell.
+/// The net at a position in a cell next to node (i, j), from the nodes that are connected to it.
 std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const {
   constexpr int width = 2 * net_reach;
   const double h = chord();
@@ -317,7 +320,7 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
   std::array<bool, width * width> have{};
   const auto place = [&](int a, int b) { return std::size_t(b * width + a); };
   const auto within = [](int a, int b) { return a >= 0 && a < width && b >= 0 && b < width; };
-  // nodes that are joined to it
+  // nodes that are connected to (i, j)
   std::array<std::array<int, 2>, width * width> open;
   std::size_t count = 0;
   const auto take = [&](int a, int b) {
@@ -335,7 +338,7 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
         take(a + da, b + db);
   }
   if (count < 3) return std::nullopt;
-  // the others continue these by polynomials of up to degree 3, the nearest first
+  // the other nodes are extrapolated by polynomials of degree up to 3, the nearest first
   while (count < have.size()) {
     const auto before = have;
     const std::size_t so_far = count;
@@ -389,7 +392,7 @@ Result<NetPoint> MarchedNet::at(double u, double v) const {
   const double h = chord();
   if (std::abs(u) < grid_.most() * h && std::abs(v) < grid_.most() * h) {
     if (const auto point = reached(u, v)) return *point;
-    // on a line itself
+    // (u, v) may be on a line of the mesh
     const int i = int(std::lround(u / h)), j = int(std::lround(v / h));
     for (const auto& [a, b] : {std::array{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
       if (grid_.known(i + a, j + b) && std::abs(u / h - i - a) <= 1 && std::abs(v / h - j - b) <= 1)

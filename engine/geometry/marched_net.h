@@ -14,9 +14,9 @@
 
 namespace gridshell {
 
-/// Why a rod of a net ends: at a line of the mesh (rim, hole, crease), at the boundary given by the
-/// preset (cut), because rods are too close to parallel (angle), because the surface bends too
-/// sharply (surface), or because another part of the net is there already (net).
+/// Reason why a rod of a net ends: a line of the mesh (rim, hole, crease), the boundary given by
+/// the preset (cut), rods too close to parallel (angle), a surface that bends too sharply
+/// (surface), or another part of the net at the same position (net).
 enum class RodStop : char { none, rim, hole, crease, cut, angle, surface, net };
 
 /// The reason in words: "a hole", "rods too close to parallel ([net] least_angle_deg)".
@@ -29,8 +29,8 @@ std::string text_of(RodStop stop);
 ///   axes are the first such rods.
 /// - A node is not computed if its rod would cross a line of the mesh, leave the requested part, or
 ///   cross another rod at less than the least angle.
-/// - Outside rims and holes, on the continued surface, `margin` nodes are computed all the same
-///   (Node::beyond). They serve the interpolation between the last nodes and the rim.
+/// - Outside rims and holes, on the continued surface, `margin` more nodes are computed
+///   (Node::beyond). They are used to interpolate between the last nodes and the rim.
 class MarchedGrid {
  public:
   struct Node {
@@ -38,7 +38,7 @@ class MarchedGrid {
     bool known = false;
     char beyond = 0;                  ///< number of nodes outside a rim or hole; 0: not outside
     bool to_u = false, to_v = false;  ///< a rod connects it to node (i + 1, j), (i, j + 1)
-    bool on_u = false, on_v = false;  ///< as to_u, to_v, or a rod's continuation past its end does
+    bool on_u = false, on_v = false;  ///< a rod or its continuation past its end connects them
     /// computed from both neighbours, or as the geodesic of its u-rod or v-rod
     enum : char { corner, straight_u, straight_v } by = corner;
     RodStop stop = RodStop::none;  ///< why it is not known; none: no rod leads to it
@@ -48,7 +48,7 @@ class MarchedGrid {
   /// lines of the mesh; `least_angle`: between rods, rad; `chord`: h, mm.
   MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
               double least_angle, double chord, int most, int margin = 0);
-  /// The grid of half the chord on the part that `lead` covers, with geodesics for the same rods.
+  /// The grid of half the chord on the part that `lead` covers; the same rods are geodesics.
   MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead);
 
   double chord() const { return chord_; }
@@ -65,7 +65,7 @@ class MarchedGrid {
   bool joined(int i, int j, int step_u, int step_v) const {
     return step_u != 0 ? at(std::min(i, i + step_u), j).to_u : at(i, std::min(j, j + step_v)).to_v;
   }
-  /// As joined(), or a rod's continuation outside a rim does.
+  /// Whether a rod or its continuation outside a rim connects the two nodes of joined().
   bool linked(int i, int j, int step_u, int step_v) const {
     return step_u != 0 ? at(std::min(i, i + step_u), j).on_u : at(i, std::min(j, j + step_v)).on_v;
   }

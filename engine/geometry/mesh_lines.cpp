@@ -13,8 +13,8 @@ namespace gridshell {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double sharp = 40 * degree, bent = 20 * degree;  // of a crease: somewhere, everywhere
-constexpr double over_others = 3;  // its angle over the median of those around
+constexpr double sharp = 40 * degree, bent = 20 * degree;  // least crease angle: once, everywhere
+constexpr double over_others = 3;  // least ratio of its angle to the median of those around
 
 using Next = std::map<int, std::vector<int>>;
 
@@ -25,7 +25,7 @@ double length_of(const Eigen::Matrix3Xd& x, const std::vector<int>& line) {
   return length;
 }
 
-/// From a vertex on, until the line ends, comes round or forks.
+/// The line from vertex `begin` over `to`, until it ends, closes or branches.
 std::vector<int> followed(const Next& next, int begin, int to) {
   std::vector<int> line{begin, to};
   while (line.back() != begin && next.at(line.back()).size() == 2) {
@@ -58,7 +58,7 @@ Result<std::vector<MeshLine>> rims_of(const Eigen::Matrix3Xd& x, const EdgeSides
   return rims;
 }
 
-/// How far the triangles at every edge turn.
+/// Angle between the normals of the two triangles at every inner edge, rad.
 std::map<MeshEdge, double> turns_of(const Eigen::Matrix3Xd& x,
                                     const std::vector<std::array<int, 3>>& triangles,
                                     const EdgeSides& sides) {
@@ -84,7 +84,7 @@ std::vector<MeshLine> creases_of(const std::map<MeshEdge, double>& turns) {
   Next next;
   std::map<MeshEdge, double> taken;
   for (const auto& [edge, turn] : turns) {
-    // of the others there
+    // median of the angles at the other edges of a vertex
     const auto median = [&](int end) {
       const auto& all = around[end];
       if (all.size() < 2) return 0.0;
@@ -132,7 +132,7 @@ Result<std::vector<MeshLine>> lines_of(const Eigen::Matrix3Xd& vertices,
 Barriers::Barriers(const TriangleMesh& mesh)
     : height_(mesh.mean_edge()), near_(2 * mesh.mean_edge()) {
   constexpr std::size_t most_entries = 10000000;
-  constexpr double longer = 0.01;  // so that nothing slips through where two walls meet
+  constexpr double longer = 0.01;  // walls overlap, so that no path passes between two of them
   const auto& x = mesh.vertices();
   std::map<int, int> ends;
   for (const MeshLine& line : mesh.lines()) {

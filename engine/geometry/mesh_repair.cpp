@@ -21,12 +21,11 @@ namespace {
 using Triangle = std::array<int, 3>;
 using Triangles = std::vector<Triangle>;
 
-constexpr double one_place = 1e-5;  // of the size
-constexpr double no_area = 1e-9;    // over the square of the longest edge
-constexpr double folded_cos =
-    0.87;                          // between the directions from an edge: by more than 150 degrees
-constexpr double least_up = 0.05;  // of a normal that faces up
-constexpr double farthest = 0.03;  // of the size: how far a vertex is moved
+constexpr double one_place = 1e-5;   // distance of equal vertices, over the mesh's size
+constexpr double no_area = 1e-9;     // area over the square of the longest edge
+constexpr double folded_cos = 0.87;  // cosine between the directions from an edge: 30 degrees
+constexpr double least_up = 0.05;    // least z of a unit normal that faces up
+constexpr double farthest = 0.03;    // largest displacement of a vertex, over the mesh's size
 
 double size_of(const Eigen::Matrix3Xd& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
@@ -43,7 +42,7 @@ std::string counted(std::size_t count, const char* one, const char* more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-/// Vertices at one position become the first of them; returns how many were.
+/// Replaces vertices at the position of an earlier one by it. Returns their number.
 std::size_t join_near(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   const double near = one_place * size_of(x);
   PointGrid grid(std::max(near, 1e-300));
@@ -64,7 +63,7 @@ std::size_t join_near(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   return joined;
 }
 
-/// The side of a triangle without area that is as long as the two others; -1: it has area.
+/// The longest side of a triangle without area; -1: the triangle has an area.
 int flat_side(const Eigen::Matrix3Xd& x, const Triangle& t) {
   int longest = 0;
   std::array<double, 3> length{};
@@ -77,7 +76,7 @@ int flat_side(const Eigen::Matrix3Xd& x, const Triangle& t) {
   return area_of(x, t).norm() > no_area * most * most ? -1 : longest;
 }
 
-/// Leaves out triangles of no area and those that are there twice; returns how many.
+/// Removes triangles without area and repeated triangles. Returns their number.
 std::size_t drop_needless(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   const std::size_t before = triangles.size();
   const auto is_point = [](const Triangle& t) {
@@ -87,7 +86,8 @@ std::size_t drop_needless(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   std::map<MeshEdge, int> count;
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) ++count[edge_of(t, k)];
-  // a corner on another triangle's edge divides that one, where others lie at the short sides
+  // a triangle without area has a corner on its longest side: if others are connected to its short
+  // sides, the neighbour at the longest side is divided at that corner
   std::map<MeshEdge, int> divided;
   std::erase_if(triangles, [&](const Triangle& t) {
     const int side = flat_side(x, t);
@@ -115,12 +115,12 @@ std::size_t drop_needless(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   return before + added - triangles.size();
 }
 
-/// Two triangles at a side of each.
+/// A connection of two triangles at one side of each.
 struct Link {
   int first, first_side, second, second_side;
 };
 
-/// From an edge into a triangle, at right angles to it.
+/// Unit vector perpendicular to a side, from it into the triangle.
 Eigen::Vector3d edge_from(const Eigen::Matrix3Xd& x, const Triangle& t, int side) {
   const auto [a, b] = edge_of(t, side);
   const Eigen::Vector3d along = (x.col(b) - x.col(a)).normalized(),
@@ -128,8 +128,8 @@ Eigen::Vector3d edge_from(const Eigen::Matrix3Xd& x, const Triangle& t, int side
   return (to - to.dot(along) * along).normalized();
 }
 
-/// Cosine of the turn between two triangles that share an edge, each (triangle, side): -1 if they
-/// are in one plane.
+/// Cosine of the angle between two triangles (triangle, side) at a common edge: -1 if they are in
+/// one plane, 1 if they are folded onto one another.
 double turn_between(const Eigen::Matrix3Xd& x, const Triangles& triangles,
                     const std::array<int, 2>& a, const std::array<int, 2>& b) {
   return edge_from(x, triangles[std::size_t(a[0])], a[1])
@@ -138,10 +138,10 @@ double turn_between(const Eigen::Matrix3Xd& x, const Triangles& triangles,
 
 struct Sides {
   std::vector<Link> links;
-  std::size_t of_several = 0, folded = 0, open = 0;  // edges
+  std::size_t of_several = 0, open = 0;  // numbers of edges with more than two triangles, with one
 };
 
-/// Which triangles are joined at their sides.
+/// Finds the triangles that are connected at their sides.
 Sides joined_sides(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
   std::map<MeshEdge, std::vector<std::array<int, 2>>> sides;
   for (int t = 0; t < int(triangles.size()); ++t)
@@ -160,12 +160,12 @@ Sides joined_sides(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
         best = Link{at[n][0], at[n][1], at[m][0], at[m][1]};
       }
     if (best) all.links.push_back(*best);
-    if (at.size() == 2 && !best) ++all.folded;
   }
   return all;
 }
 
-/// Vertices of their own for what hangs together around each; returns which each was.
+/// Divides each vertex into one for each group of connected triangles around it. Returns the old
+/// index of each new vertex.
 std::vector<int> part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& links) {
   UnionFind corners(3 * triangles.size());
   const auto corner_at = [&](int t, int vertex) {
@@ -188,9 +188,9 @@ std::vector<int> part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
   return from;
 }
 
-/// Vertices that were one and are not any more draw back a little, each into its triangles.
+/// Moves vertices that were divided a little away from each other, each into its own triangles.
 void draw_apart(Eigen::Matrix3Xd& x, const Triangles& triangles, const std::vector<int>& from) {
-  constexpr double inwards = 1e-3;  // to the middle of its triangles
+  constexpr double inwards = 1e-3;  // fraction of the distance to the middle of its triangles
   std::map<int, std::vector<int>> of;
   for (int t = 0; t < int(triangles.size()); ++t)
     for (const int vertex : triangles[std::size_t(t)]) of[vertex].push_back(t);
@@ -207,8 +207,8 @@ void draw_apart(Eigen::Matrix3Xd& x, const Triangles& triangles, const std::vect
   }
 }
 
-/// Keeps the piece with the largest area. Returns how many there are, and the fraction of the area
-/// that is left out.
+/// Removes all pieces but the one with the largest area. Returns the number of pieces, and the
+/// fraction of the area that was removed.
 std::pair<std::size_t, double> keep_largest(const Eigen::Matrix3Xd& x, Triangles& triangles,
                                             const std::vector<Link>& links) {
   UnionFind pieces(triangles.size());
@@ -229,7 +229,7 @@ std::pair<std::size_t, double> keep_largest(const Eigen::Matrix3Xd& x, Triangles
   return {areas.size(), 1 - largest->second / whole};
 }
 
-/// The part of a closed piece, equally oriented, that faces up.
+/// Orients the triangles of a closed piece consistently and removes those that do not face up.
 void keep_upper(const Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& links) {
   std::vector<std::vector<Link>> around(triangles.size());
   for (const Link& link : links)
@@ -249,7 +249,7 @@ void keep_upper(const Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
       const int there = link.first == here ? link.second : link.first;
       if (done[std::size_t(there)]) continue;
       Triangle& other = triangles[std::size_t(there)];
-      // the sides' numbers are invalid once a triangle is turned
+      // compare edges, not numbers of sides: these change when a triangle is turned
       for (int k = 0; k < 3; ++k) {
         const MeshEdge edge = edge_of(triangles[std::size_t(here)], k);
         if (std::ranges::find(other, edge[0]) == other.end() ||
@@ -273,8 +273,9 @@ void keep_upper(const Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
   });
 }
 
-/// Moves vertices where triangles are folded onto one another or cross to the middle of those
-/// around; how many, and how far at most; none where that does not help.
+/// Moves vertices where triangles are folded onto one another or cross to the mean of their
+/// neighbours. Returns their number and their largest displacement; if that does not help, nothing
+/// is moved.
 std::pair<std::size_t, double> unfold(Eigen::Matrix3Xd& x, const Triangles& triangles) {
   constexpr int most_rounds = 40;
   const double most = farthest * size_of(x);
@@ -301,7 +302,7 @@ std::pair<std::size_t, double> unfold(Eigen::Matrix3Xd& x, const Triangles& tria
       for (const auto& [t, k] : at)
         wrong.insert(triangles[std::size_t(t)][std::size_t(next(next(k)))]);
     }
-    // where it runs through itself, the vertices around
+    // without folds: the vertices around a crossing of the mesh with itself
     if (wrong.empty())
       if (const auto crossing = first_crossing(x, triangles, mean_edge); crossing && *crossing)
         for (int k = 0; k < int(x.cols()); ++k)

@@ -1,4 +1,4 @@
-// One sheet of what a file of triangles contains.
+// Repair of triangle meshes from files.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,26 +8,24 @@
 
 namespace gridshell {
 
-/// A mesh that was mended, and what was done to it, one sentence each.
+/// A repaired mesh, and one sentence on each kind of repair.
 struct MendedMesh {
   Eigen::Matrix3Xd vertices;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::string> done;
 };
 
-/// Finds, among triangles as programs write them, the largest sheet (by area) that TriangleMesh may
-/// take:
-/// - vertices nearer than 1e-5 of the mesh's size are one;
-/// - triangles without area and those that are there twice are left out, what is next to a corner
-///   that such a triangle had on another's edge is divided there;
-/// - where more than two triangles share an edge the two that continue straightest stay joined,
-/// where
-///   two are folded onto one another by more than 150 degrees they are parted, and so are parts
-///   that touch in one vertex; vertices parted so draw back by a thousandth of their triangles;
+/// Repairs triangles of a file and returns the largest sheet (by area), as TriangleMesh needs it:
+/// - vertices nearer to each other than 1e-5 of the mesh's size are merged;
+/// - triangles without area and repeated triangles are left out; if such a triangle has a corner on
+///   the edge of a neighbour, the neighbour is divided there;
+/// - if more than two triangles have a common edge, the two that continue straightest remain
+///   connected; two triangles that are folded onto one another by more than 150 degrees are
+///   separated, and so are parts that touch in one vertex; separated vertices are moved inwards by
+///   a thousandth of the size of their triangles;
 /// - of a closed mesh the part that faces up is taken;
-/// - vertices at which noise folds the sheet or lets it cross itself go to the mean of their
-/// neighbours, by no more
-///   than 3 % of the size, else they stay.
+/// - vertices at which noise folds the sheet or lets it cross itself are moved to the mean of their
+///   neighbours, if that takes at most 3 % of the mesh's size.
 MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 3>> triangles);
 
 }  // namespace gridshell

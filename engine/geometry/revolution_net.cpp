@@ -14,9 +14,9 @@ tl::unexpected<Error> not_positive(const char* what, double value) {
   return invalid("{}: got {:g}, expected above 0", what, value);
 }
 
-// how near 1 - (c r)^2 and c r are to the folds at 0: rods around the axis, or along it
+// smallest allowed 1 - (c r)^2 and c r; at 0 the net folds, with rods around the axis or along it
 constexpr double least_regular = 1e-6;
-// what a sum of lengths may lose to round-off, relative to the net's extent
+// round-off of sums of lengths, relative to the net's extent
 constexpr double round_off = 1e-12;
 
 bool exists(const Profile& profile, double c, double t) {
@@ -24,9 +24,9 @@ bool exists(const Profile& profile, double c, double t) {
   return cr > least_regular && (1 - cr) * (1 + cr) > least_regular;
 }
 
-/// the piece of the profile around its middle on which the net exists, with the breaks inside
+/// The range of t around the profile's middle in which the net exists, with the breaks inside.
 std::vector<double> unfolded(const Profile& profile, double c) {
-  // between breaks, to find the first fold
+  // samples between two breaks to find the first fold
   const int samples = std::clamp(256 / static_cast<int>(profile.breaks.size()), 4, 64);
   std::vector<double> range{profile.origin};
   const auto walk = [&](std::vector<double> breaks) {
@@ -89,7 +89,7 @@ Result<Profile> spool_profile(double radius, double waist) {
     const double ddz = (-2 * sine * cosine - dz * dr) / r;
     return ProfilePoint{radius * r, radius * dr, radius * ddr, radius * dz, radius * ddz};
   };
-  // at the rim itself the profile does not move
+  // at the rim itself the speed ds/dt is 0
   const double rim = M_PI_2 - 1e-6;
   return Profile{
       fmt::format("spool of radius {:g} mm and waist {:g}", radius, waist), at, {-rim, rim}};
@@ -112,6 +112,8 @@ Result<Profile> beltrami_profile(double radius, double waist) {
 
 Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
   TRY(spline, SplineCurve::through(r_z));
+  // the net's coordinates grow along the axis
+  if (r_z(1, r_z.cols() - 1) < r_z(1, 0)) *spline = *SplineCurve::through(r_z.rowwise().reverse());
   const auto curve = std::make_shared<const SplineCurve>(*spline);
   const std::vector<double>& knots = curve->knots();
   for (std::size_t k = 0; k < knots.size(); ++k)
@@ -169,12 +171,12 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
   double x = u + v;
   const double phi = c_ * (u - v);
   if (!(x >= first - slack && x <= last + slack))
-    return invalid("{}; (u, v) = ({:g}, {:g}) mm is past it", why_it_ends(!(x < 0)), u, v);
+    return invalid("{}; (u, v) = ({:g}, {:g}) mm is past its end", why_it_ends(!(x < 0)), u, v);
   x = std::clamp(x, first, last);
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
   const double sine = c_ * p.r, cosine = std::sqrt((1 - sine) * (1 + sine));
-  // down the side that phi turns to, and around
+  // unit vectors away from the axis and around it
   const Eigen::Vector3d radial(0, -std::sin(phi), std::cos(phi));
   const Eigen::Vector3d around(0, -std::cos(phi), -std::sin(phi));
   const double speed = p.speed();
@@ -193,9 +195,9 @@ Result<double> RevolutionNet::x_at_axial(double z) const {
   const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
   const double slack = round_off * (last - first);
   if (!(z >= first - slack && z <= last + slack))
-    return invalid("{}; {:g} mm is past it", why_it_ends(!(z < 0)), profile_.axial_origin + z);
+    return invalid("{}; {:g} mm is past its end", why_it_ends(!(z < 0)), profile_.axial_origin + z);
   double low = z_->begin(), high = z_->end();
-  // bisection: heights along a profile may grow unevenly
+  // bisection, since dz/dt may be 0
   for (int halving = 0; halving < 200; ++halving) {
     const double middle = (low + high) / 2;
     if (middle == low || middle == high) break;

@@ -8,12 +8,12 @@
 
 namespace gridshell {
 
-/// Tridiagonal in between.
+/// Solves the tridiagonal equations of continuous first derivatives at the inner knots.
 Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();
   std::vector<double> h(n - 1);
   for (Eigen::Index k = 0; k + 1 < n; ++k) h[k] = t[k + 1] - t[k];
-  // Thomas' algorithm on the inner knots, the end conditions put in
+  // Thomas' algorithm on the inner knots, after the end conditions have been inserted
   Eigen::VectorXd diagonal(n), upper(n), lower(n);
   Eigen::MatrixXd m(points.rows(), n);
   for (Eigen::Index k = 1; k + 1 < n; ++k) {
@@ -89,8 +89,8 @@ SplineCurve::Point UnitSpeedCurve::at(double s) const {
 
 namespace {
 
-/// Where a value lies among knots, and the weights with which values and second derivatives at its
-/// two knots make the spline there.
+/// The interval between knots that contains a value, and the weights of the values and second
+/// derivatives at its two knots in the spline's value.
 struct Cell {
   Eigen::Index at;
   std::array<double, 2> value, second;

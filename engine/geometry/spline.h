@@ -1,4 +1,4 @@
-// A smooth curve through points, by arc length.
+// Cubic splines: curves through points, and heights over a rectangular grid.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,16 @@
 
 namespace gridshell {
 
-/// Second derivatives at the knots t of cubic splines through values (one row each, a column a
-/// knot), not-a-knot: the third derivative is continuous at the second and the last but one of 4 or
-/// more.
+/// Second derivatives at the knots t of cubic splines, one spline per row of `points`, one column
+/// per knot; at least 4 knots. End conditions are not-a-knot: the third derivative is continuous at
+/// the second and the last but one knot.
 Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::MatrixXd& points);
 
 /// Cubic spline through points of the plane or of space (one per column), knots by chord length,
 /// not-a-knot at its ends: twice continuously differentiable, error of fourth order in the spacing.
 class SplineCurve {
  public:
-  /// of two or three coordinates, without memory of its own on the heap
+  /// A vector of two or three coordinates without heap memory.
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
   struct Point {
     Vector position, first, second;  ///< C, dC/dt, d2C/dt2
@@ -37,7 +37,7 @@ class SplineCurve {
   Eigen::MatrixXd points_, second_;  ///< positions and second derivatives at the knots
 };
 
-/// A spline curve at unit speed: s in [-length/2, length/2] from its middle, mm.
+/// A spline curve parametrised by arc length: s in [-length/2, length/2] from its middle, mm.
 class UnitSpeedCurve {
  public:
   explicit UnitSpeedCurve(SplineCurve curve);
@@ -50,22 +50,22 @@ class UnitSpeedCurve {
   double half_length_ = 0;
 };
 
-// A height over a rectangular grid, by a spline.
-
-/// z = h(x, y) through its values on a grid: piecewise bicubic, twice continuously differentiable
-/// (splines in x of splines in y, not-a-knot at the edges); error of fourth order in the distance
-/// of its points. No value outside the edges.
+/// Height z = h(x, y) through values on a rectangular grid: piecewise bicubic, twice continuously
+/// differentiable (splines in x of splines in y, not-a-knot at the edges); error of fourth order in
+/// the distance of the grid's points.
 class HeightGrid {
  public:
-  /// `z`: rows x columns, mm. Errors (bad_input): fewer than 4 x or y, not rising, not finite.
+  /// `x`, `y`: rising, mm; `z`: one row per y, one column per x, mm. Errors (bad_input): fewer than
+  /// 4 x or y, x or y not rising, a number that is not finite.
   static Result<HeightGrid> through(std::vector<double> x, std::vector<double> y,
                                     Eigen::MatrixXd z);
 
-  double at(double x, double y) const;  ///< not a number outside the edges
+  double at(double x, double y) const;  ///< the height; NaN outside the grid
 
  private:
   std::vector<double> x_, y_;
-  Eigen::MatrixXd z_, z_xx_, z_yy_, z_xxyy_;  ///< at the points: values and second derivatives
+  /// Values and second derivatives at the grid's points.
+  Eigen::MatrixXd z_, z_xx_, z_yy_, z_xxyy_;
 };
 
 }  // namespace gridshell

@@ -45,9 +45,9 @@ Result<Eigen::Vector3d> Surface::nearest(const Eigen::Vector3d& p) const {
 }
 
 Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
-  constexpr double alike = 1e-4, as_large = 1 - 1e-6;  // of the larger curvature
+  constexpr double alike = 1e-4, as_large = 1 - 1e-6;  // relative to the larger curvature
   const Eigen::Vector3d slope = gradient(p), normal = slope.normalized();
-  // differences of differences need more room than those
+  // second differences need a larger step than first ones
   const double h = 20 * h_;
   Eigen::Matrix3d second;
   for (int k = 0; k < 3; ++k) {
@@ -73,17 +73,17 @@ Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
 
 namespace {
 
-constexpr double finest = 0.25;     // of the detail: distance of centres at least
-constexpr double rim_reach = 1;     // of the detail: patches continue past the rim
-constexpr double least_turn = 0.1;  // cosine between a patch's normal and those around
-constexpr double apart_over = 0.3;  // of a reach: so far off a patch another part of the mesh is
-constexpr int few = 22;             // vertices that a patch is better fitted to at least
+constexpr double finest = 0.25;     // least distance of centres, over the detail
+constexpr double rim_reach = 1;     // reach of patches at the rim, over the detail
+constexpr double least_turn = 0.1;  // least cosine between a patch's normal and those around
+constexpr double apart_over = 0.3;  // least distance of another part of the mesh, over the reach
+constexpr int few = 22;             // desired number of vertices of a fit of degree 4
 constexpr std::size_t enough = 150;
 constexpr std::size_t most_entries = 30000000, most_fitted = 10000000;
 // radius of a fit over the distance of centres, the smoothest first
 constexpr std::array all_radii{9.0, 7.0, 5.5, 4.0, 3.0, 2.3};
 constexpr double usual_radii = 4,
-                 smooth = 1e-4;  // of the size: as far are vertices of a smooth mesh
+                 smooth = 1e-4;  // largest distance of the vertices of a smooth mesh, over its size
 
 Eigen::AlignedBox3d box_about(const Eigen::Vector3d& p, double radius) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(radius);
@@ -96,8 +96,8 @@ double falling(double square) {
   return left > 0 ? left * left * left * left : 0;
 }
 
-/// Vertices of the mesh no nearer to one another than `apart`, but so that none lies further from
-/// one of them.
+/// Chooses vertices of the mesh that are at least `apart` away from each other, so that every
+/// vertex is within `apart` of one of them.
 Result<std::vector<int>> spread_centres(const Eigen::Matrix3Xd& x, double apart) {
   std::vector<int> centres;
   BoxGrid taken(apart);
@@ -113,14 +113,15 @@ Result<std::vector<int>> spread_centres(const Eigen::Matrix3Xd& x, double apart)
   return centres;
 }
 
-/// Vertices within a radius of one, joined to it by such vertices and not behind a crease.
+/// Vertices within a radius of a centre that are connected to it by such vertices and are not
+/// behind a crease.
 std::vector<int> joined_around(const TriangleMesh& mesh, const Barriers& lines, int centre,
                                double radius, std::vector<int>& mark, int now) {
   const Eigen::Vector3d middle = mesh.vertices().col(centre);
   std::vector<int> around{centre};
   mark[std::size_t(centre)] = now;
   for (std::size_t k = 0; k < around.size(); ++k) {
-    // of a crease both sides have the vertices
+    // vertices on a crease belong to both sides, so the search stops there
     if (mesh.on_crease(around[k])) continue;
     for (const int next : mesh.neighbours()[std::size_t(around[k])]) {
       const Eigen::Vector3d to = mesh.vertices().col(next);
@@ -132,7 +133,7 @@ std::vector<int> joined_around(const TriangleMesh& mesh, const Barriers& lines, 
   return around;
 }
 
-/// So many of the vertices around that a fit needs no more, evenly from near to far.
+/// Every n-th vertex, from near to far, if there are more than a fit needs.
 std::vector<int> thinned(const std::vector<int>& around) {
   if (around.size() <= 2 * enough) return around;
   std::vector<int> some;
@@ -141,7 +142,7 @@ std::vector<int> thinned(const std::vector<int>& around) {
   return some;
 }
 
-/// Whether it contains a sign of equality that is no part of ==, <=, >= or !=.
+/// Whether the text contains an equals sign that is no part of ==, <=, >= or !=.
 bool is_equation(std::string_view text) {
   for (std::size_t k = 1; k + 1 < text.size(); ++k)
     if (text[k] == '=' && text[k + 1] != '=' &&
@@ -176,7 +177,7 @@ double MeshSurface::above(const Patch& patch, const Eigen::Vector3d& p) {
   return (local.z() - height) / patch.slope;
 }
 
-/// Nothing where the mesh turns too sharply.
+/// The fit around a vertex; empty if the mesh bends too sharply.
 std::optional<MeshSurface::Patch> MeshSurface::patch_of(const TriangleMesh& mesh, int vertex,
                                                         const std::vector<int>& around,
                                                         double radius) {
@@ -189,7 +190,7 @@ std::optional<MeshSurface::Patch> MeshSurface::patch_of(const TriangleMesh& mesh
   patch.axes.row(2) = normal;
   patch.axes.row(1) = normal.cross(patch.axes.row(0).transpose());
   const auto count = Eigen::Index(around.size());
-  // of lower degree where that many coefficients would follow every vertex
+  // a lower degree if the vertices are few compared with the coefficients
   const Eigen::Index used = count >= few ? terms : count >= 14 ? 10 : count >= 8 ? 6 : 3;
   Eigen::MatrixXd rows(count, used);
   Eigen::VectorXd heights(count);
@@ -203,7 +204,7 @@ std::optional<MeshSurface::Patch> MeshSurface::patch_of(const TriangleMesh& mesh
     rows.row(k) = weight * powers(local.x() / radius, local.y() / radius).head(used).transpose();
     heights[k] = weight * local.z();
   }
-  // the shortest of all best coefficients: near a rim not all of them may be distinguishable
+  // of all best fits the one with the smallest coefficients: near a rim the fit may not be unique
   patch.height.setZero();
   patch.height.head(used) = shortest_least_squares(rows, heights, 1e-7);
   patch.slope = std::hypot(1.0, patch.height[1] / radius, patch.height[2] / radius);
@@ -216,7 +217,7 @@ Result<MeshSurface> MeshSurface::fitted(const TriangleMesh& mesh, const Barriers
   const double apart = std::max(mesh.mean_edge(), finest * detail_mm);
   MeshSurface surface(radii / 2 * apart);
   surface.lines_ = lines;
-  // of a coarse mesh all vertices but doubled ones
+  // in a coarse mesh every vertex is a centre, except those very near to another one
   const bool fine = apart > mesh.mean_edge();
   TRY(centres, spread_centres(x, fine ? apart : 0.1 * apart));
   BoxGrid vertices(radii * apart);
@@ -228,7 +229,7 @@ Result<MeshSurface> MeshSurface::fitted(const TriangleMesh& mesh, const Barriers
   int now = 0;
   for (const int centre : *centres) {
     if (mesh.on_crease(centre)) continue;
-    // wider where vertices are few, narrower where they turn too sharply
+    // a larger radius if vertices are few, a smaller one if the mesh bends too sharply
     double radius = std::max(radii * apart, 1.6 * mesh.longest_edge(centre));
     std::vector<int> around;
     const auto look = [&] {
@@ -249,7 +250,7 @@ Result<MeshSurface> MeshSurface::fitted(const TriangleMesh& mesh, const Barriers
     if (std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); }))
       patch->reach = std::max(patch->reach, rim_reach * detail_mm);
     patch->beside_crease = std::ranges::any_of(around, [&](int k) { return mesh.on_crease(k); });
-    // another sheet next to this one
+    // no patch where another sheet of the mesh is next to this one
     bool alone = true;
     for (int corner = 0; corner < 8 && alone; ++corner) {
       const Eigen::Vector3d to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
@@ -282,7 +283,7 @@ void MeshSurface::measure(const TriangleMesh& mesh) {
 Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm, double fit_mm) {
   const Barriers lines(mesh);
   const double requested = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
-  // vertices of a smooth surface lie on it to much less, and it is followed closely
+  // the usual radius is enough if the mesh is smooth
   if (fit_mm == 0) {
     TRY(close, fitted(mesh, lines, detail_mm, usual_radii));
     if (close->farthest_ <= smooth * mesh.size()) return std::move(*close);
@@ -302,7 +303,7 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm,
   return std::move(*best);
 }
 
-/// From a patch's centre, around the end of a crease that lies between.
+/// Distance of p from a patch's centre, around the end of a crease if one is between them.
 double MeshSurface::distance(const Patch& patch, const Eigen::Vector3d& p) const {
   const double straight = (p - patch.centre).norm();
   if (!patch.beside_crease || straight > patch.reach || !lines_.crosses_crease(patch.centre, p))
@@ -335,7 +336,7 @@ std::optional<double> highest_at(const TriangleMesh& mesh, double x, double y) {
     const double area = e.x() * f.y() - e.y() * f.x();
     const double u = ((x - p.x()) * f.y() - (y - p.y()) * f.x()) / area,
                  v = (e.x() * (y - p.y()) - e.y() * (x - p.x())) / area;
-    // upright triangles have no area in the plan
+    // vertical triangles have no area in plan: u and v are not finite
     if (!(u >= outside && v >= outside && u + v <= 1 - outside)) continue;
     const double z = p.z() + u * e.z() + v * f.z();
     if (!highest || z > *highest) highest = z;

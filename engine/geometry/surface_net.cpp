@@ -13,11 +13,11 @@
 namespace gridshell {
 namespace {
 
-constexpr double exact = 1e-13;  // of a chord: corrections this small end an iteration
-constexpr double astray = 0.5;   // of a chord: so far from its guess no point is the right one
+constexpr double exact = 1e-13;  // correction, over a chord, that ends an iteration
+constexpr double astray = 0.5;   // largest distance from the guess, over a chord
 
 /// The point of the surface near `guess` that satisfies two more conditions: `rest` fills the last
-/// two rows of the residual and of its slope. The surface's slope at the guess serves all
+/// two rows of the residual and of its derivative. The gradient at the guess is used in all
 /// iterations.
 template <class Rest>
 std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vector3d& guess,
@@ -40,17 +40,17 @@ std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vecto
 }
 
 constexpr int reach = net_reach;
-constexpr int coarse_margin = 8;  // of the coarser grid around what is needed
-constexpr int most_nodes = 600;   // from the apex to an end of an axis
+constexpr int coarse_margin = 8;  // nodes of the coarser grid around the part that is used
+constexpr int most_nodes = 600;   // largest number of nodes from the apex to an end of an axis
 
-/// Lagrange's weights of the nodes -2 ... 3 at t in [0, 1], of the value, its slope and its second
-/// derivative by t.
+/// Lagrange weights of the nodes -2 ... 3 for the value, the first and the second derivative at t
+/// in [0, 1].
 struct Weights {
   std::array<double, 2 * reach> value{}, slope{}, second{};
 
   explicit Weights(double t) {
     for (int a = 0; a < 2 * reach; ++a) {
-      // coefficients by product rule: the polynomial, once and twice derived
+      // the polynomial and its first two derivatives by the product rule
       double p = 1, dp = 0, ddp = 0;
       for (int b = 0; b < 2 * reach; ++b) {
         if (b == a) continue;
@@ -125,21 +125,21 @@ NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord) 
   found.tangent_v = C_v.normalized();
   const Eigen::Vector3d across = found.tangent_u.cross(found.tangent_v);
   found.omega = std::atan2(across.norm(), found.tangent_u.dot(found.tangent_v));
-  // second form over first form
+  // determinant of the second fundamental form over that of the first
   const Eigen::Vector3d normal = across.normalized();
   const double M = normal.dot(C_uv);
   found.K = (normal.dot(C_uu) * normal.dot(C_vv) - M * M) / across.squaredNorm();
   return found;
 }
 
-/// A geodesic from the apex, which is its first point; where the surface ends, so does it, with a
-/// last point that is none of the surface.
+/// A geodesic from the apex, which is its first point. If the surface ends (`ends`), the last point
+/// is not on the surface.
 struct ChordGrid::Axis {
   std::vector<Eigen::Vector3d> points;
   bool ends = false;
 };
 
-/// In equal chords, until it is `margin` chords outside.
+/// Computes a geodesic in equal chords, until it is `margin` chords outside the part that is used.
 Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPlace& place,
                                             Eigen::Vector3d along, double chord, int margin,
                                             int most) {
@@ -149,7 +149,7 @@ Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPla
     const Eigen::Vector3d here = points.back();
     const auto next = geodesic_chord(surface, here, along, chord);
     if (!next) {
-      // whether that is too early, whoever asks for the net will say
+      // check_whole() reports an error if this is too early
       points.push_back(here + chord * along);
       axis.ends = true;
       return axis;
@@ -201,12 +201,12 @@ Result<ChordGrid> ChordGrid::make(const Surface& surface, const NetPlace& place,
   return grid;
 }
 
-/// One quadrant, row by row away from the axes.
+/// Computes one quadrant, row by row away from the axes.
 void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, int sign_u,
                      int sign_v) {
   const int most_u = sign_u > 0 ? last_u() : -first_u(),
             most_v = sign_v > 0 ? last_v() : -first_v();
-  // how many nodes outside, of this row and the one before
+  // number of nodes outside the part that is used, for this row and the row before
   std::vector<int> out(std::size_t(most_u) + 1), before(out.size());
   const auto depth = [&](int i, int j, int least) {
     return place.outside(at(i, j)) < 0 ? 0 : least + 1;
@@ -222,7 +222,7 @@ void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, 
       here = margin;
       const int least = std::min(before[std::size_t(i)], out[std::size_t(i) - 1]);
       Node& state = nodes_[this->place(a, b)];
-      // past where the net has ended it does not begin again
+      // nodes past a folded or lost node are not computed
       for (const Node one : {node(a - sign_u, b), node(a, b - sign_v)})
         if (one == Node::folded || one == Node::lost) state = one;
       if (state != Node::unasked || least >= margin || node(a - sign_u, b) != Node::known ||
@@ -315,7 +315,7 @@ void SurfaceNet::tell(PartialNet& so_far) const {
   for (std::size_t k = 0; k < close.size(); ++k) so_far.narrow.col(Eigen::Index(k)) = close[k];
 }
 
-/// Around every node that is used there must be all that values near it take.
+/// Checks that all nodes exist that interpolation around a used node needs.
 Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
   for (int j = first_v(); j <= last_v(); ++j)
     for (int i = first_u(); i <= last_u(); ++i) {
@@ -323,7 +323,7 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
       for (int b = j - reach; b <= j + reach; ++b)
         for (int a = i - reach; a <= i + reach; ++a) {
           if (grid_.node(a, b) == ChordGrid::Node::known) continue;
-          // past the end of an axis the reason is that end's
+          // past the end of an axis the reason is that of its last node
           const auto node =
               grid_.node(std::clamp(a, first_u(), last_u()), std::clamp(b, first_v(), last_v()));
           const Eigen::Vector3d& p = point(i, j);

@@ -1,4 +1,4 @@
-// A net of equal chords on a surface: what a Chebyshev net becomes on a grid.
+// Chebyshev nets on any surface, computed on grids of equal chords.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ class ChordGrid {
     unasked,  ///< not computed: more than `margin` nodes outside the part that is used
     known,    ///< computed
     folded,   ///< rods are close to parallel: the sine of their angle is below least_sine
-    lost      ///< the surface has no such point, or the node lies past one without
+    lost      ///< the surface has no such point here or at a node towards the axes
   };
   static constexpr double least_sine = 0.12;
 
@@ -95,8 +95,6 @@ class ChordGrid {
   std::vector<Node> nodes_;
   std::vector<char> inside_;
 };
-
-// Chebyshev nets on any surface, found on grids of equal chords.
 
 /// The computed part of a net that was refused, for a picture of what went wrong; mm.
 struct PartialNet {

@@ -16,7 +16,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-/// Where the segment from a to b meets a triangle [Moeller, Trumbore 1997].
+/// The point where the segment from a to b meets a triangle [Moeller, Trumbore 1997]; empty: none.
 std::optional<Eigen::Vector3d> meeting(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                        const Eigen::Matrix3Xd& x, const Triangle& triangle) {
   constexpr double parallel = 1e-12;
@@ -58,7 +58,7 @@ bool runs_along(const std::array<int, 3>& triangle, const Edge& edge) {
   return false;
 }
 
-/// The vertices that triangles have; changes the triangles to their new numbers.
+/// The vertices that triangles use; the triangles are changed to their new indices.
 Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& triangles) {
   std::vector<int> new_numbers(std::size_t(all.cols()), -1);
   std::vector<int> used;
@@ -76,7 +76,7 @@ Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& t
   return Eigen::Matrix3Xd(all(Eigen::all, used));
 }
 
-/// The triangles at each edge. Errors: an edge of three triangles, a triangle without area.
+/// The triangles at each edge. Errors: an edge with three triangles, a triangle without area.
 Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
   constexpr double thin = 1e-9;  // area over the square of the longest edge
   Sides sides;

@@ -1,4 +1,4 @@
-// Edges and areas of triangles, each three numbers of vertices.
+// Edges and areas of triangles, which are given as three indices of vertices.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,8 @@
 
 namespace gridshell {
 
-/// Half the cross product of two sides, mm^2, along the triangle's normal; `x`: 3 x vertices, mm.
+/// Area vector of a triangle, half the cross product of two sides, along its normal, mm^2; `x`: 3 x
+/// vertices, mm.
 inline Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const std::array<int, 3>& t) {
   return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
 }

@@ -15,22 +15,35 @@ namespace gridshell::preset {
 namespace {
 
 std::span<const RodValue> own_of(const NetworkData& network, int number) {
-  // not by equal_range, which clang 14 does not take
+  // not by equal_range, which clang 14 does not compile
   const auto first = std::ranges::lower_bound(network.own, number, {}, &RodValue::rod),
              last = std::ranges::upper_bound(network.own, number, {}, &RodValue::rod);
   return {first, last};
 }
 
-/// Sets a key of [rod], or says what is wrong with it.
+/// Sets a key of [rod] to a value of a network file. Returns the error, or an empty text.
 std::string put_own(const RodValue& own, Preset& preset) {
-  const Field* field = own.key == "diameter_mm" ? nullptr : find_field("rod", own.key);
-  if (!field || field->as<Points>(preset))
+  const auto is_own = [&](const Field& field) {
+    return field.table == "rod" && field.key != "diameter_mm" &&
+           (field.as<bool>(preset) || field.as<double>(preset));
+  };
+  const Field* field = find_field("rod", own.key);
+  if (!field || !is_own(*field)) {
+    std::vector<std::string> known{"points", "diameter_mm"};
+    for (const Field& one : field_table())
+      if (is_own(one)) known.push_back(one.key);
     return fmt::format(
-        "got an unknown key '{}', expected points, diameter_mm or another key of [rod]{}", own.key,
-        did_you_mean(own.key, keys_of("rod")));
+        "got an unknown key '{}', expected points, diameter_mm or another key of [rod] that is a "
+        "number "
+        "or "
+        "true or false{}",
+        own.key, did_you_mean(own.key, known));
+  }
   bool* flag = field->as<bool>(preset);
   const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
   if (!fits) return fmt::format("{}: got {:g}, expected {}", own.key, own.value, allowed(*field));
+  if (const auto wrong = magnitude_error(own.value); !wrong.empty())
+    return got_text(own.key, fmt::format("{:g}", own.value), wrong);
   if (flag)
     *flag = own.value == 1;
   else
@@ -38,7 +51,8 @@ std::string put_own(const RodValue& own, Preset& preset) {
   return "";
 }
 
-/// [rod] of every rod of a network that is another than those before it, with one such rod.
+/// The different [rod] of a network's rods with values of their own, each with the index of the
+/// first such rod.
 std::vector<std::pair<int, Rod>> rods_of_their_own(const Preset& preset) {
   std::vector<std::pair<int, Rod>> found;
   if (preset.footprint.kind != FootprintKind::network) return found;
@@ -52,7 +66,7 @@ std::vector<std::pair<int, Rod>> rods_of_their_own(const Preset& preset) {
   return found;
 }
 
-/// The rules of [rod] for such rods.
+/// Adds errors of the rules of [rod] for the rods of a network with values of their own.
 void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyError>& found) {
   const auto rods = rods_of_their_own(preset);
   if (rods.empty() || kind == RuleKind::unused) return;
@@ -80,7 +94,8 @@ std::string list_of(const std::vector<KeyError>& needs) {
   return fmt::format("{}", fmt::join(all, ", and "));
 }
 
-/// Keys that the requested rod model does not support, and rods whose stiffness it lacks.
+/// Keys that the requested rod model does not support, and rods without the torsional stiffness
+/// that it needs.
 std::vector<KeyError> model_conflicts(const Preset& preset) {
   std::vector<KeyError> found;
   const RodModel requested = preset.accuracy.model;
@@ -110,7 +125,7 @@ std::vector<KeyError> model_conflicts(const Preset& preset) {
   };
   check(preset.rod, "[rod]");
   if (preset.rod_v.differs) check(preset.rod_v, "[rod_v]");
-  if (preset.rod.shear_GPa > 0)
+  if (preset.rod.shear_GPa > 0 || preset.rod.GJ_Nmm2 > 0)
     for (const auto& [number, rod] : rods_of_their_own(preset))
       check(rod, fmt::format("rods[{}]", number));
   return found;
@@ -190,7 +205,7 @@ std::vector<std::string> doubtful_values(const Preset& preset) {
   if (preset.rod_v.differs) look(preset.rod_v, "[rod_v]");
   const bool network = preset.footprint.kind == FootprintKind::network;
   const double spacing = network ? spacing_of(preset.footprint.file) : preset.footprint.spacing_mm;
-  // 3 mm is the least that joints without a diameter have
+  // joints without a given diameter have at least 3 mm
   if (const double across = preset.joints.diameter_mm.value_or(3); spacing > 0 && across > spacing)
     found.push_back(fmt::format(
         "[joints] diameter_mm = {:g}: joints are larger than their usual distance of {:.3g} mm",
@@ -221,7 +236,7 @@ std::string model_reason(const Preset& preset) {
       return fmt::format(
           "net: the tolerance of {:g} allows the smooth net itself, and nothing is requested that "
           "needs "
-          "an equilibrium; none is solved for, so there is no residual and no word on stability",
+          "an equilibrium; none is solved for, so there is no residual, and stability is not known",
           preset.accuracy.tolerance);
     case RodModel::twist: {
       const auto needs = key_errors(preset, RuleKind::needs_twist);
@@ -232,7 +247,7 @@ std::string model_reason(const Preset& preset) {
                  : fmt::format("twist: {}; nothing is left out, the torsion of every rod is in it",
                                list_of(needs));
     }
-    case RodModel::automatic:  // the rod model is chosen before
+    case RodModel::automatic:  // rod_model_of() never returns it
     case RodModel::bend:
       break;
   }

@@ -9,37 +9,37 @@
 
 namespace gridshell::preset {
 
-/// A key that other keys put in the wrong.
+/// A key whose value contradicts other keys, or has no effect because of them.
 struct KeyError {
   std::string table, key;
-  int item = -1;                    ///< of a list of tables, from 0
+  int item = -1;                    ///< index in a list of tables; -1: no list
   std::vector<std::string> others;  ///< the other keys: "[net] kind"
-  std::string what;                 ///< what is wrong, what is allowed
+  std::string what;                 ///< the error and the allowed values
 
   std::string label() const { return key_label(table, key, item); }
 };
 
-/// What the rules of one kind find in this preset; of an unused key the first reason alone.
+/// Keys for which a rule of this kind applies; an unused key is listed once, with its first reason.
 std::vector<KeyError> key_errors(const Preset& preset, RuleKind kind);
 
-/// Keys that contradict each other. Empty if the preset is consistent (whether its footprint can be
-/// built is not known here).
+/// Keys that contradict each other. Empty if the preset is consistent; whether its footprint can be
+/// built is not checked.
 std::vector<KeyError> conflicts(const Preset& preset);
 
-/// Every key that this preset's kinds do not use. The reader refuses those that are set to
-/// something, the writer leaves them out.
+/// Keys that have no effect in this preset, because of the kinds that it chooses. The reader
+/// refuses those that are set to another value than their default, the writer leaves them out.
 std::vector<KeyError> unused_keys(const Preset& preset);
 
-/// `[rod]` with the values that a network file gives for one rod. Keys that are not in [rod] or out
-/// of range are ignored; own_value_fault() finds them. `reversed`: left and right of the rod are
-/// exchanged.
+/// `[rod]` with the values that a network file gives for rod `number`. Keys that are not in [rod]
+/// or out of range are ignored; own_value_error() finds them. `reversed`: the rod runs in the
+/// opposite direction, so its sideways curvature changes sign.
 Rod rod_of_network(const Preset& preset, int number, bool reversed = false);
 
-/// A sentence on joints of a network whose rods run so that they close while a step opens the
-/// others by the mean of all angles; empty: there are none.
+/// A sentence on joints that a step "open" with a mean angle would close, because one of their rods
+/// runs in the wrong direction; empty: there are none.
 std::string joints_against(const Preset& preset);
 
-/// What is wrong with the first such value, naming its rod; empty: nothing.
+/// The error of the first value of a single rod in a network file, with its rod; empty: none.
 std::string own_value_error(const NetworkData& network);
 
 /// A side of a block as a join names it.
@@ -49,7 +49,7 @@ struct NamedSide {
 };
 inline constexpr const char* side_names[] = {"east", "west", "north", "south"};
 
-/// "left.east"; empty when no block or side has that name.
+/// The side that a name like "left.east" means; empty if no block or side has that name.
 std::optional<NamedSide> side_named(const Preset& preset, const std::string& name);
 
 /// Sentences on values that are in range but unlike those of any known shell: a material stiffer
@@ -59,7 +59,7 @@ std::vector<std::string> doubtful_values(const Preset& preset);
 // Choice of the rod model: the simplest one that the preset's scene allows.
 
 /// The rod model of a preset: the requested one, else the simplest that is exact; `net` only for a
-/// cap of a sphere with a tolerance of 0.05 or more, since such shells are known to lie within 0.03
+/// cap of a sphere with a tolerance of 0.05 or more, since such shells are known to be within 0.03
 /// of their net.
 RodModel rod_model_of(const Preset& preset);
 

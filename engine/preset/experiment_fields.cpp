@@ -95,7 +95,7 @@ void add_contact(FieldList<Contact> list) {
           "\"none\": rods pass through each other, which is reported; \"barrier\": rods repel each "
           "other within a small gap, away from their joints")
       .needs_equilibrium("a net's rods bear no forces", acts);
-  unless("[jitter] trials", "a search throws rods through one another",
+  unless("[jitter] trials", "a search for states moves rods through one another",
          [](const Preset& preset) { return preset.jitter.requested(); });
   unless("[dynamics] snap", "a snap in time takes no notice of contact",
          [](const Preset& preset) { return preset.dynamics.snap; });
@@ -181,7 +181,7 @@ void add_accuracy(FieldList<Accuracy> list) {
           between(0, 64), "edges between two joints of a rod; 0 chooses them from the tolerance")
       .needs_equilibrium(meshed, [](const Accuracy& of) { return of.edges_per_segment > 0; });
   list.add<&Accuracy::leading_edges>(between(0, 64),
-                                     "does nothing any more: the finest mesh is followed");
+                                     "not used: the path is followed on the finest mesh");
   list.add<&Accuracy::model>(
       "\"net\": the smooth net, nothing is solved; \"bend\": stretching and bending; \"twist\": "
       "torsion too; \"auto\": the simplest that is exact");
@@ -254,7 +254,7 @@ void add_jitter(FieldList<SearchSettings> list) {
 }
 
 void add_sweep(FieldList<Sweep> list) {
-  // a preset that sweeps nothing needs no line about it
+  // a preset without a sweep is written without [sweep]
   list.unused({"over", "seeds"}, "nothing is swept: [sweep] over is empty and seeds is 1",
               [](const Sweep& of) { return !of.requested(); });
   list.add<&Sweep::over>(

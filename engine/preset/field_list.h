@@ -23,6 +23,7 @@ std::string member_name() {
   return std::string(text.substr(begin, text.find_first_of(";])", begin) - begin));
 }
 
+/// The member as the variant that the field table uses.
 template <class T>
 Member member_at(T& member) {
   if constexpr (std::is_enum_v<T>)
@@ -47,6 +48,7 @@ requires std::is_enum_v<T> Member member_at(std::vector<T>& list) {
                    }};
 }
 
+/// Names of an enum's values; empty for other types.
 template <class T>
 std::vector<std::string> words_of_type(const T*) {
   if constexpr (std::is_enum_v<T>) return all_words<T>();
@@ -87,9 +89,9 @@ class AnyFieldList {
   std::vector<Rule> common_;
 };
 
-/// Declares the keys of one struct, in order. A rule that follows a key applies to that key, a rule
-/// before the first key to all keys. The function of a rule takes (const Preset&), (const Struct&),
-/// or both.
+/// Declares the keys of one struct, in order. A rule after a key applies to that key, a rule before
+/// the first key to all keys of the list. The function of a rule takes (const Preset&), (const
+/// Struct&), or both.
 template <class Struct>
 class FieldList : AnyFieldList {
  public:
@@ -121,7 +123,7 @@ class FieldList : AnyFieldList {
   FieldList& named(std::string key) { return rename(std::move(key)), *this; }
   FieldList& unit(std::string unit) { return all_.back().unit = std::move(unit), *this; }
   FieldList& label(std::string label) { return all_.back().label = std::move(label), *this; }
-  /// The entries of a list of numbers, such as "[i, j]": a list that is not empty has that many.
+  /// Names the entries of a list of numbers, such as "[i, j]": the list is empty or has that many.
   FieldList& shape(std::string shape) { return all_.back().shape = std::move(shape), *this; }
   FieldList& colour() { return all_.back().colour = true, *this; }
   FieldList& points(std::vector<std::string> coordinates,
@@ -166,7 +168,7 @@ class FieldList : AnyFieldList {
     return rule(RuleKind::needs_equilibrium, {}, why, holds);
   }
 
-  /// The values of `kind`, the first key of the list, for which this key is used.
+  /// Makes the last key unused unless `kind`, the first key of the list, has one of these values.
   template <class Kind>
   FieldList& used_by(Kind Struct::*kind, std::vector<std::type_identity_t<Kind>> users) {
     use_only(
@@ -205,7 +207,7 @@ class FieldList : AnyFieldList {
   }
 };
 
-/// Adds the rule that the density must be given if `asks` is true of the struct.
+/// Refuses a struct for which `asks` is true if the rods have no mass: "gravity needs a mass".
 template <class Struct>
 void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
   for (const char* table : {"rod", "rod_v"})
@@ -218,12 +220,13 @@ void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const St
                  });
 }
 
-/// The keys of the tables, by what they are about.
-void add_rod_fields(std::vector<Field>& all);         ///< [rod], [rod_v], [joints], [ends]
-void add_shape_fields(std::vector<Field>& all);       ///< [footprint], [actuation]
-void add_net_fields(std::vector<Field>& all);         ///< [net], [blocks], [[block]], [[join]]
-void add_experiment_fields(std::vector<Field>& all);  ///< what is done to a shell, and how
-void add_hand_fields(std::vector<Field>& all);        ///< [[step]], [loads]
-void add_picture_fields(std::vector<Field>& all);     ///< [movie], [style], [figure], [page]
+// Each function adds the keys of some tables.
+void add_rod_fields(std::vector<Field>& all);    ///< [rod], [rod_v], [joints], [ends]
+void add_shape_fields(std::vector<Field>& all);  ///< [footprint], [actuation]
+void add_net_fields(std::vector<Field>& all);    ///< [net], [blocks], [[block]], [[join]]
+/// [imperfection] to [sweep], [[step]], [loads].
+void add_experiment_fields(std::vector<Field>& all);
+void add_hand_fields(std::vector<Field>& all);     ///< [[step]], [loads]
+void add_picture_fields(std::vector<Field>& all);  ///< [movie], [style], [figure], [page]
 
 }  // namespace gridshell::preset

@@ -1,4 +1,4 @@
-// How the values of keys are read: one overload for each type of member.
+// Reads the values of keys from TOML: one overload per type of member.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,17 +27,6 @@ std::optional<double> real_of(const toml::node& value) {
     return real->get();
   if (const auto* integer = value.as_integer()) return double(integer->get());
   return std::nullopt;
-}
-
-// products of values in the energies must stay within the range of double
-constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
-
-// why a number cannot be computed with, or empty
-std::string magnitude_error(double value) {
-  const double size = std::abs(value);
-  if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
-  return std::string(size > 1 ? "too large" : "too small") +
-         " to compute with, expected 0, or a magnitude of 1e-9 to 1e9";
 }
 
 // only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero
@@ -71,8 +60,7 @@ std::string type_text(const toml::node& value) {
   return "a date or time";
 }
 
-// a part of a surface or network: only the magnitude of coordinates is limited, other numbers are
-// counts
+// parts of a surface or network: the magnitude of coordinates is limited; integers are indices
 std::string read_part(const toml::node& value, double& number) {
   const auto real = real_of(value);
   number = real.value_or(0);
@@ -135,14 +123,14 @@ std::string surface_text(const SurfaceData& surface) {
                      size.z());
 }
 
-/// Puts a value into a member, or says what is wrong.
+/// Assigns a TOML value to a member. Each overload returns the error, or an empty text.
 class Reader {
  public:
   Reader(const Field& field, const toml::node& value, const Preset& preset,
          const FileContext& context, FileReport* report)
       : field_(field), value_(value), preset_(preset), context_(context), report_(report) {}
 
-  /// Whatever its type, a member is changed only where nothing is wrong.
+  /// Changes the member only if there is no error.
   template <class T>
   std::string operator()(T* member) {
     T fresh{};
@@ -169,10 +157,11 @@ class Reader {
     words.set(words.member, indices);
     return "";
   }
-  /// Whether the error is complete, as of a file.
+  /// Whether the error is a complete sentence, as those of files are, without "expected ..." to
+  /// add.
   bool reported_in_full() const { return reported_in_full_; }
 
-  /// How an outline is read, if the name of a drawing is given for its points or its kind.
+  /// Hint for a user who gave the name of a drawing as the points or the kind of a boundary.
   std::string drawing_hint(const std::string& name) const {
     const bool boundary = field_.key == "boundary" || field_.key == "points_mm";
     const auto dot = name.rfind('.');
@@ -312,7 +301,7 @@ class Reader {
     if (report_) report_->text = fmt::format("{}: {}", (context_.folder / name).string(), text);
   }
 
-  // points, a surface or a network out of a file, or none where the name is empty
+  // reads points, a surface or a network from a file; an empty name gives none
   template <class Data>
   std::string read_file_of(const std::string& name, const auto& read_data, std::size_t largest,
                            Data& data) {
@@ -334,7 +323,7 @@ class Reader {
   const Preset& preset_;
   const FileContext& context_;
   FileReport* report_;
-  const char* kind_ = "";  // what comes before the type of the value found
+  const char* kind_ = "";  // text before the type of a wrong value: "a list with "
   bool reported_in_full_ = false;
 };
 

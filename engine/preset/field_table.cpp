@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
+
+std::string magnitude_error(double value) {
+  const double size = std::abs(value);
+  if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
+  return std::string(size > 1 ? "too large" : "too small") +
+         " to compute with, expected 0, or a magnitude of 1e-9 to 1e9";
+}
 
 std::string key_label(const std::string& table, const std::string& key, int item) {
   if (item >= 0) return fmt::format("[[{}]] {} {}", table, item + 1, key);
@@ -20,7 +28,7 @@ std::string full_label(const std::string& table, const std::string& key, int ite
 }
 
 std::string unit_of(const std::string& key) {
-  // a unit that ends with another one comes before it
+  // longer endings first: "_rad_per_mm" ends with "_per_mm", too
   static constexpr std::pair<const char*, const char*> units[] = {
       {"_rad_per_mm", "rad/mm"}, {"_N_per_mm", "N/mm"}, {"_per_mm", "1/mm"}, {"_per_s", "1/s"},
       {"_kg_m3", "kg/m^3"},      {"_m_s2", "m/s^2"},    {"_N_m2", "N/m^2"},  {"_N_m", "N/m"},
@@ -63,7 +71,7 @@ void AnyFieldList::add_rule(RuleKind kind, Keys others, Fault fault) {
             {others.begin(), others.end()},
             [of = of_, where = where_, fault = std::move(fault)](const Preset& preset, int item) {
               if (where && !where(preset)) return std::string();
-              // nothing is written through this
+              // the function gets a preset that can be written to; nothing is written
               return fault(preset, of(const_cast<Preset&>(preset), item));
             }});
 }

@@ -1,4 +1,5 @@
-// How the values of keys are written and described: one overload for each type of member.
+// Writes the values of keys as TOML and describes the allowed ones: one overload per type of
+// member.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -77,7 +78,7 @@ std::string points_text(const Field& field, const Points& points) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
-/// The text of a member.
+/// Writes a member as TOML.
 struct Writer {
   const Field& field;
 
@@ -96,8 +97,6 @@ struct Writer {
     return text_of(texts);
   }
 };
-
-// Describing.
 
 std::string bounds_text(const Range& range) {
   const bool below = std::isfinite(range.low), above = std::isfinite(range.high);
@@ -151,7 +150,7 @@ struct Describer {
   }
   std::string operator()(const NetworkData*) const {
     return "the name of a file, a table {points_mm, rods, diameters_mm, supports_mm, "
-           "springs_N_per_mm, free, joint_laws, holds}, or \"\"";
+           "springs_N_per_mm, own, free, joint_laws, holds}, or \"\"";
   }
 };
 
@@ -165,12 +164,12 @@ std::string words_text(const std::vector<std::string>& words) {
 }
 
 std::string allowed(const Field& field) {
-  Preset any = default_items();  // only the type of its member counts
+  Preset any = default_items();  // only the type of the member matters
   return std::visit(Describer{field}, field.in(any, -1));
 }
 
 std::string value_text(const Field& field, const Preset& preset, int item) {
-  // members are reached for writing too; nothing is written here
+  // Field::in takes a preset that can be written to; nothing is written
   return std::visit(Writer{field}, field.in(const_cast<Preset&>(preset), item));
 }
 

@@ -9,8 +9,8 @@
 
 namespace gridshell::preset {
 
-/// Points of a curve, each of as many coordinates as its key says, mm; a coordinate that is a word
-/// is the number of that word among those of its key.
+/// A table of numbers: one row per point, each with the coordinates that its key defines, mm. A
+/// coordinate that is a name ("u", "v") is stored as the index of that name.
 using Points = std::vector<std::vector<double>>;
 
 /// The kinds of [[step]]: what a user can do to a shell.
@@ -19,74 +19,80 @@ enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, br
 enum class IndentationPlace { pole, highest };
 enum class Direction { inward, outward };
 enum class Lateral { free, held };
+/// A push at one joint of the actuated shell.
 struct Indentation {
   IndentationPlace at = IndentationPlace::pole;
-  double latitude_deg = 90, longitude_deg = 0;
-  std::vector<int> joint;  ///< (i, j), or empty
+  double latitude_deg = 90, longitude_deg = 0;  ///< joint nearest to them; 90: `at` is used
+  std::vector<int> joint;  ///< indices (i, j) of the joint; empty: the joint is given otherwise
   Direction direction = Direction::inward;
-  double depth = 0;     ///< of rho; 0: none
-  double depth_mm = 0;  ///< 0: none
+  double depth = 0;     ///< depth of the push over rho of a net or R_o of a circle; 0: none
+  double depth_mm = 0;  ///< depth of the push, instead of `depth`; 0: none
   Lateral lateral = Lateral::free;
-  bool unload = false;
+  bool unload = false;  ///< whether the push is removed again
 
+  /// Whether a push is requested.
   bool requested() const { return depth > 0 || depth_mm > 0; }
 };
 
-/// What a release takes out or lets go.
+/// What a release removes: constraints of joints, all bolts or all braces.
 enum class Released { joints, bolts, braces };
 enum class Diagonals { both, first, second };
 enum class BraceKind { cable, strut };
 
-/// One step of a hand, in a list that is done in order; numbers that its kind does not use count
-/// for nothing.
 /// What opens joints: a spring at each, or one torque, equal at all, that prescribes their mean.
 enum class JointDrive { each, mean };
+/// One step of what is done to a formed shell. Steps are done in order; members that the kind of a
+/// step does not use have no effect.
 struct Step {
   StepKind kind = StepKind::move;
-  double progress = 1;        ///< of the boundary; above 1 it moves further than in the actuation
-  double radius_mm = 0;       ///< of a circle's boundary; 0: `progress` says it
-  Points edge_points;         ///< (k, x, y, z): by how much edge points lie off the motion
-  std::vector<int> joint;     ///< (i, j)
-  std::vector<double> to_mm;  ///< (x, y, z) of the joint; empty: `depth_mm` says it
+  double progress = 1;     ///< progress of the boundary; 0: original, 1: actuated, may be above 1
+  double radius_mm = 0;    ///< radius of a circle's boundary; 0: `progress` is used
+  Points edge_points;      ///< (k, x, y, z): displacement of edge point k off the motion
+  std::vector<int> joint;  ///< indices (i, j)
+  std::vector<double> to_mm;  ///< target (x, y, z) of the joint; empty: `depth_mm` is used
   double depth_mm = 0;        ///< inward, against the shell's normal at the joint
   std::vector<double> along;  ///< direction of a joint's constraint; empty: direction of the push
   Lateral lateral = Lateral::free;
-  double factor = 1;  ///< of the dead loads
+  double factor = 1;  ///< multiple of the loads that `load_case` names
   BranchSide side = BranchSide::lower;
   int seed = 1;
-  double force_N = 0.4;      ///< of a jitter
-  std::string load_case;     ///< whose factor it is; empty: that of the dead loads
-  double stiffness_Nmm = 0;  ///< of the bolts, per rad; 0: rigid
-  Points cells;              ///< (i, j) of those that are braced; empty: all
+  double force_N = 0.4;      ///< largest force of a jitter on a joint along each axis
+  std::string load_case;     ///< name of a load case; empty: the loads present during forming
+  double stiffness_Nmm = 0;  ///< stiffness of a bolt or of an opened joint, per rad; 0: rigid
+  Points cells;              ///< indices (i, j) of the braced cells; empty: all complete ones
   Diagonals diagonals = Diagonals::both;
   BraceKind brace = BraceKind::cable;
   double EA_N = 0;
   Released what = Released::joints;
-  double angle_deg = 0;  ///< that joints are opened to on average
-  Points angles;         ///< (i, j, degrees) of those that are opened; empty: all
+  double angle_deg = 0;  ///< target for the mean angle of all joints; 0: `angles` is used
+  Points angles;         ///< target angles (i, j, degrees) of single joints
   JointDrive drive = JointDrive::each;
 };
 
-/// Where a load on the edge points: downwards; against the shell's normal there; into the shell, in
-/// its surface and across the edge; in plan across the edge as it turns.
+/// Direction of a load on the edge: downwards; against the shell's normal; inward in the surface,
+/// across the edge; in plan across the edge, turning with it.
 enum class EdgeDirection { down, normal, inward, pressure };
+/// Loads on the shell, in addition to its boundary.
 struct Loads {
   double gravity_m_s2 = 0;    ///< downwards
-  double field_N_per_mm = 0;  ///< of rod, downwards
-  Points points;              ///< (i, j, F_x, F_y, F_z), N
-  // what cases have of it acts on the formed shell
-  double snow_N_m2 = 0;      ///< of plan, downwards
-  double wind_N_m2 = 0;      ///< its pressure where it meets the shell at right angles
-  double pressure_N_m2 = 0;  ///< on all faces, turning with them
-  double edge_N_m = 0;       ///< on the shell's edge
+  double field_N_per_mm = 0;  ///< downward force per length of rod
+  Points points;              ///< forces (i, j, F_x, F_y, F_z) on joints, N
+  // the following act on the formed shell alone, multiplied by the factors of a LoadCase
+  double snow_N_m2 = 0;      ///< downward load per area of plan
+  double wind_N_m2 = 0;      ///< wind pressure at normal incidence
+  double pressure_N_m2 = 0;  ///< pressure on all faces, turning with them
+  double edge_N_m = 0;       ///< load per length of the shell's edge
   EdgeDirection edge_direction = EdgeDirection::down;
-  double imperfection = 0.002;  ///< of the length scale
-  double wind_deg = 0;          ///< where it blows to, from +x towards +y
+  /// largest displacement of the imperfect shapes of a load case, over R_o, rho or half the
+  /// bounding diagonal
+  double imperfection = 0.002;
+  double wind_deg = 0;  ///< direction to which the wind blows, from +x towards +y
 
+  /// Whether there are loads during forming.
   bool any() const { return gravity_m_s2 != 0 || field_N_per_mm != 0 || !points.empty(); }
 };
 
-/// Which half of the shell snow lies on, as seen from the middle.
+/// Half of the shell that has snow, seen from the middle of its joints.
 enum class SnowSide { all, x, minus_x, y, minus_y };
 constexpr auto words(SnowSide) {
   return names_except<SnowSide>({{SnowSide::x, "+x"},
@@ -100,8 +106,8 @@ struct LoadCase {
   std::string name;
   double dead = 0, snow = 0, wind = 0, pressure = 0, edge = 0;  ///< factors
   SnowSide snow_side = SnowSide::all;
-  std::optional<double> wind_deg = {};  ///< where its wind blows to; none: as [loads] has it
-  Points points;                        ///< (i, j, F_x, F_y, F_z), N
+  std::optional<double> wind_deg = {};  ///< direction of its wind; empty: that of [loads]
+  Points points;                        ///< forces (i, j, F_x, F_y, F_z) on joints, N
 };
 
 }  // namespace gridshell::preset

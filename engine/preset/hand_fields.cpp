@@ -1,10 +1,35 @@
-// Keys of what a user does to a formed shell, and of its loads.
+// Keys of [[step]], [loads] and [[loads.case]].
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
 namespace {
 
-/// Conflicts of the steps with other keys, reported for the first step.
+/// Refuses rows whose first `columns` numbers are no integers, or those of an earlier row.
+void add_index_rules(FieldList<Step>& list, Points Step::*rows, long columns, const char* what) {
+  const auto indices = [=](const std::vector<double>& row) {
+    return std::vector<double>(row.begin(), row.begin() + columns);
+  };
+  list.refused({}, [=](const Step& of) -> std::string {
+    std::set<std::vector<double>> known;
+    for (const auto& row : of.*rows) {
+      const auto index = indices(row);
+      if (std::ranges::any_of(index, [](double k) { return k != std::round(k); }))
+        return fmt::format("[{:g}] is no {}, expected integers", fmt::join(index, ", "), what);
+      if (!known.insert(index).second)
+        return fmt::format("[{:g}] twice, expected each {} once", fmt::join(index, ", "), what);
+    }
+    return "";
+  });
+}
+
+/// Adds the conflicts of steps with other keys, which are reported for the first step.
 void step_rules(FieldList<Step>& list) {
   const auto first = [](const Preset& preset, const Step& of) { return &of == preset.step.data(); };
   list.refused({"[indentation] depth", "[indentation] depth_mm"},
@@ -18,10 +43,10 @@ void step_rules(FieldList<Step>& list) {
                [=](const Preset& preset, const Step& of) {
                  return first(preset, of) && preset.jitter.requested();
                })
-      .needs_equilibrium("a net does not answer a hand", first);
+      .needs_equilibrium("the shape of a net does not change with a step", first);
 }
 
-/// What makes a formed shell stiff, and takes it away again.
+/// Adds the keys of the steps that change joints and braces: tighten, open, brace, release.
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
   list.add<&Step::stiffness_Nmm>(at_least(0),
@@ -40,6 +65,7 @@ void add_stiffening(FieldList<Step>& list) {
   list.add<&Step::angles>("open: target angles of single joints; the others are free")
       .points({"i", "j", "angle_deg"});
   list.used_by(&Step::kind, {K::open});
+  add_index_rules(list, &Step::angles, 2, "joint");
   list.add<&Step::drive>(
       "open: \"each\": every joint has a spring; \"mean\": one torque, equal at all joints, brings "
       "their mean angle to the target, from the network as drawn");
@@ -96,12 +122,11 @@ void add_steps(FieldList<Step> list) {
           "move: displacement of single edge points, counted from 0, relative to the boundary's "
           "motion")
       .points({"edge_point", "x_mm", "y_mm", "z_mm"});
-  only({K::move}).refused({}, "an edge point without a number, expected an integer from 0",
-                          [](const Step& of) {
-                            return std::ranges::any_of(of.edge_points, [](const auto& row) {
-                              return row[0] < 0 || row[0] != double(int(row[0]));
-                            });
-                          });
+  only({K::move}).refused(
+      {}, "an edge point without a number, expected an integer from 0", [](const Step& of) {
+        return std::ranges::any_of(of.edge_points, [](const auto& row) { return row[0] < 0; });
+      });
+  add_index_rules(list, &Step::edge_points, 1, "edge point");
   list.add<&Step::joint>(between(-500, 500), "indices of the joint; release: empty releases all")
       .shape("[i, j]");
   only({K::push, K::hold, K::release})
@@ -135,8 +160,9 @@ void add_steps(FieldList<Step> list) {
                });
   list.add<&Step::lateral>("whether the joint pushed may move across the push");
   only({K::push});
-  list.add<&Step::factor>(between(-1000, 1000),
-                          "multiple of [loads], or of the named case, from then on; 0: none");
+  list.add<&Step::factor>(
+      between(-1000, 1000),
+      "multiple of [loads], or of the named case, that acts after the step; 0: none");
   only({K::load});
   list.add<&Step::load_case>(
           "load: name of a [[loads.case]], evaluated on the shape at which it is applied; empty: "

@@ -26,7 +26,7 @@ std::vector<std::string> make_likely(SurfaceData& mesh, double spacing_mm, bool 
       for (double& number : vertex) number *= unit;
     notes.push_back(
         fmt::format("names no unit and would be {:.3g} mm wide, {:.2g} of the rods' spacing: read "
-                    "in {}, {:.4g} mm wide{}; file_unit says otherwise",
+                    "in {}, {:.4g} mm wide{}; file_unit sets another unit",
                     width, width / spacing_mm, unit == 10 ? "cm" : "m", unit * width,
                     unit == 10 ? " (1 : 100 of a file in metres)" : ""));
   }

@@ -1,4 +1,4 @@
-// What a mesh of a surface is likely meant as, where its file does not say.
+// Guesses the unit and the upward axis of a mesh whose file does not give them.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace gridshell::preset {
 
-/// Multiplies a mesh by the first of 1, 10 (cm, or a file in metres at 1 : 100) and 1000 (m) that
-/// makes it four of the rods' spacings wide or more, where its unit is not known, and turns it
-/// about x where it faces y by half more than z, y being up. Returns a sentence for each.
+/// If the unit of a mesh is not known, multiplies it by the first of 1, 10 (cm, or a file in metres
+/// at 1 : 100) and 1000 (m) that makes it at least four spacings of the rods wide. If y is up, that
+/// is, if its area seen along y is more than 1.5 times that seen along z, turns it about x so that
+/// z is up. Returns a sentence for each change.
 std::vector<std::string> make_likely(SurfaceData& mesh, double spacing_mm, bool unit_known);
 
 }  // namespace gridshell::preset

@@ -34,4 +34,17 @@ Rod rod_of(Material material) {
   return {};
 }
 
+void take_material(Rod& rod, const Rod& given, const std::function<bool(const char* key)>& is_set) {
+  const bool named = rod.material != Material::none;
+  Rod made = named ? rod_of(rod.material) : given;
+  if (named && is_set("yield_strain") && !is_set("strength_MPa")) made.strength_MPa = 0;
+  if (is_set("strength_MPa")) made.yield_strain = given.yield_strain;
+  for (const auto& [key, member] : {std::pair("young_GPa", &Rod::young_GPa),
+                                    {"shear_GPa", &Rod::shear_GPa},
+                                    {"density_kg_m3", &Rod::density_kg_m3},
+                                    {"strength_MPa", &Rod::strength_MPa},
+                                    {"yield_strain", &Rod::yield_strain}})
+    rod.*member = is_set(key) ? given.*member : made.*member;
+}
+
 }  // namespace gridshell::preset

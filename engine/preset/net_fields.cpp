@@ -7,7 +7,7 @@ namespace {
 
 using Kinds = FootprintKind;
 
-/// A list of points that a kind of net is made of.
+/// Adds the rules of a list of points that only one kind of net uses: at least four points.
 void made_of(FieldList<Net>& net, NetKind kind, Points Net::*points) {
   net.used_by(&Net::kind, {kind}).refused({"kind"}, [=](const Net& of) {
     return of.kind == kind && (of.*points).size() < 4
@@ -60,7 +60,7 @@ FieldList<Net> add_net(FieldList<Net> net, bool block) {
   return net;
 }
 
-/// Keys of a net on any surface.
+/// Adds the keys of a net on a surface that an expression or a file gives.
 void add_surface(FieldList<Net> net) {
   const auto given = [](const Net& of) {
     return of.kind != NetKind::surface
@@ -108,7 +108,7 @@ void add_surface(FieldList<Net> net) {
                     "the search is for a mesh of triangles, expected \"given\" for other surfaces",
                     [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });
   const auto searched = [](const Net& of) { return of.apex != NetApex::given; };
-  const char* found = "apex = \"best\" finds it";
+  const char* found = "the search for the apex finds it, as `apex` requests";
   net.add<&Net::apex_mm>(
       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
       "or a file [x, y]");
@@ -124,8 +124,9 @@ void add_surface(FieldList<Net> net) {
       "direction of the u-axis at the apex: that of the largest curvature (x, if all are equal), "
       "or x");
   surface().unused({"apex"}, found, searched);
-  net.add<&Net::axis_deg>(between(-180, 180),
-                          "how far it is turned from there, to the left as seen from above");
+  net.add<&Net::axis_deg>(
+      between(-180, 180),
+      "rotation of the u-axis from the direction of `axis`, to the left as seen from above");
   surface().unused({"apex"}, found, searched);
   net.add<&Net::cut_mm>(
       "height of the plane that cuts the surface, whose upper part remains; \"none\": a mesh ends "
@@ -147,7 +148,7 @@ void name_rule(FieldList<Block>& list) {
   });
 }
 
-/// A side of a block in a join.
+/// Adds the rule that a join must name a side of a block.
 void side_rule(FieldList<Join>& list, std::string Join::*side) {
   list.refused({}, [=](const Preset& preset, const Join& join) -> std::string {
     if (side_named(preset, join.*side)) return "";

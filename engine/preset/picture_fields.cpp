@@ -3,7 +3,7 @@
 namespace gridshell::preset {
 namespace {
 
-/// A list that is [low, high] where it is not empty.
+/// Adds the rules of a range: a list [low, high] with low < high, or empty.
 template <class Struct>
 void rises(FieldList<Struct>& list, std::vector<double> Struct::*range) {
   list.shape("[low, high]")
@@ -107,7 +107,9 @@ void add_style(FieldList<Style> list) {
   list.add<&S::background>("colour behind the shell; \"transparent\" leaves it out of the PNG")
       .colour();
   list.add<&S::colour_map>(
-      "auto: sequential of sizes, diverging about zero of what has a sign; print: diverging, and "
+      "auto: sequential for quantities without a sign, else diverging about zero; print: "
+      "diverging, "
+      "and "
       "negative values darker in grey too");
   list.add<&S::range>(
       "range of the colours, in the unit of the colour bar; empty: nine tenths of the values of "
@@ -131,7 +133,7 @@ void add_style(FieldList<Style> list) {
   list.add<&S::font_size>(between(0.5, 2), "size of all text, over its usual size");
 }
 
-/// Why the radii of a circle's stills do not fall from R_o to R_a; empty: they do.
+/// The error of [figure] radii_mm, which must fall from R_o to R_a; empty: there is none.
 std::string radii_error(const Preset& preset) {
   if (preset.figure.radii_mm.empty()) return "";
   if (preset.footprint.kind != FootprintKind::circle)

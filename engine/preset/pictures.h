@@ -1,4 +1,4 @@
-// The part of a preset that says what its pictures look like: movies, stills and pages.
+// The part of a preset that describes its pictures: movies, stills and pages.
 #pragma once
 
 #include <array>
@@ -25,6 +25,7 @@ enum class ColourBy {
 };
 enum class View { free, front, side, top, corner, push };
 enum class Pace { even, eased, height };
+/// Frames and camera of a movie.
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};
@@ -35,20 +36,22 @@ struct Movie {
   double elevation_deg = 22;  ///< camera, above the boundary's plane
   double turn_deg = 40;       ///< camera turn over the whole movie
   double zoom = 1;
-  bool inset = true;  ///< the small top view
-  bool bins = false;  ///< the plot of K in bins
+  bool inset = true;  ///< whether the small top view is drawn
+  bool bins = false;  ///< whether K of the cells is plotted in bins along x
   bool captions = true;
-  bool beside = true;             ///< whether cases are shown next to one another in each frame
-  View view = View::free;         ///< a standard view, which replaces azimuth and elevation
-  std::vector<double> target_mm;  ///< (x, y, z) in the middle of the panel; empty: all that moves
+  bool beside = true;      ///< whether cases are shown next to one another in each frame
+  View view = View::free;  ///< a standard view, which replaces azimuth and elevation
+  /// point (x, y, z) in the middle of the panel; empty: the middle of all that moves
+  std::vector<double> target_mm;
   bool orthographic = false;
-  std::vector<double> bins_range;  ///< (low, high) of the axis of the bins, rad; empty: the run's
-  Points views;                    ///< (azimuth, elevation) of more views in each frame
-  /// of the movie without the stills at its ends and the title; 0: frames / fps
+  /// range (low, high) of the axis of the plot of bins, rad; empty: that of the run
+  std::vector<double> bins_range;
+  Points views;  ///< (azimuth, elevation) of more views in each frame
+  /// duration of the movie without the title and the stills at its ends; 0: frames / fps
   double seconds = 0;
-  double hold_first_s = 0;  ///< of the first frame
-  double hold_s = 0;        ///< of the last frame
-  double title_s = 0;       ///< of a title card at the start
+  double hold_first_s = 0;  ///< duration of the first frame
+  double hold_s = 0;        ///< duration of the last frame
+  double title_s = 0;       ///< duration of a title card at the start
   Pace pace = Pace::even;
   bool webm = false, gif = false, poster = false;  ///< further files next to movie.mp4
 };
@@ -58,7 +61,7 @@ enum class ColourMap { automatic, diverging, sequential, grey, print };
 constexpr auto words(ColourMap) {
   return names_except<ColourMap>({{ColourMap::automatic, "auto"}});
 }
-enum class Visibility { automatic, on, off };  ///< automatic: as the theme has it
+enum class Visibility { automatic, on, off };  ///< automatic: chosen by the theme
 constexpr auto words(Visibility) {
   return names_except<Visibility>({{Visibility::automatic, "auto"}});
 }
@@ -68,37 +71,38 @@ struct Style {
   double rod_width_mm = 0, joint_width_mm = 0, ring_width_mm = 0;
   std::string rod_colour, joint_colour, ring_colour, background;
   ColourMap colour_map = ColourMap::automatic;
-  std::vector<double> range;  ///< (low, high) of the colours; empty: of all cases together
+  std::vector<double> range;  ///< (low, high) of the colours; empty: chosen for all cases together
   Visibility cells = Visibility::automatic, joints = Visibility::automatic,
              rings = Visibility::automatic, floor = Visibility::automatic,
              shadow = Visibility::automatic, loads = Visibility::automatic,
              braces = Visibility::automatic, ghost = Visibility::automatic;
-  double far_fade = 0.25;  ///< by how much the far side pales
-  bool letters = true;     ///< of the panels of a figure
-  std::string font;        ///< family of all text; empty: the usual one
-  double font_size = 1;    ///< of all text, over its usual size
+  double far_fade = 0.25;  ///< fraction by which the far side fades into the background
+  bool letters = true;     ///< whether the panels of a figure have letters
+  std::string font;        ///< font family of all text; empty: DejaVu Sans
+  double font_size = 1;    ///< size of all text over its usual size
 };
 
 enum class PageKind { none, fig1, fig2, fig3, fig4, fig5, literature };
 /// A page that shows a figure of the paper, or shells of other authors next to one another.
 struct Page {
   PageKind kind = PageKind::none;
-  std::string photo;   ///< a PNG at the position of the photograph
+  std::string photo;   ///< a PNG that replaces the photograph
   std::string sweep;   ///< folder or table of a finished sweep, for the phase diagram
-  bool drawn = false;  ///< the page with rendered pictures of the shells too
+  bool drawn = false;  ///< whether the page is also made with rendered pictures of the shells
 };
 
+/// Stills, figures and cut lists.
 struct Figure {
   Quality quality = Quality::figure;
-  double width_mm = 0;  ///< as printed; 0: as many pixels as movie.size says
+  double width_mm = 0;  ///< printed width; 0: the pixels of movie.size
   double dpi = 300;
-  bool vector = false;           ///< shells as lines in addition to their pictures
-  double cut_step_mm = 0.1;      ///< lengths and marks of cut lists are multiples of it; 0: as are
-  double stock_mm = 0;           ///< longest piece of rod that there is; 0: any
+  bool vector = false;           ///< whether shells are also drawn as lines, as SVG and PDF
+  double cut_step_mm = 0.1;      ///< step of lengths and marks in cut lists; 0: all digits
+  double stock_mm = 0;           ///< length in which rods are sold; 0: any length
   std::vector<double> radii_mm;  ///< boundary radii of the stills
   double scale_bar_mm = 20;
-  bool title = true;  ///< over every still, figure and plot
-  Points scan;        ///< (x, y, z) of joints measured by others
+  bool title = true;  ///< whether every still, figure and plot has its title above it
+  Points scan;        ///< positions (x, y, z) of joints measured by others
 };
 
 }  // namespace gridshell::preset

@@ -45,30 +45,20 @@ void PresetBuilder::forget_items(const std::string& table) {
 }
 
 void PresetBuilder::take_material(const std::string& table) {
-  Rod& rod = table == "rod_v" ? preset.rod_v : preset.rod;
+  const bool second = table == "rod_v";
   const auto named = set_at.find(key_label(table, "material"));
-  if (rod.material == Material::none || named == set_at.end()) return;
+  if (named == set_at.end()) return;
   const ValueLayer layer = named->second.layer;
-  const Rod made = rod_of(rod.material);
-  const auto is_set = [&](const char* key) {
-    const auto set = set_at.find(key_label(table, key));
-    return set != set_at.end() && set->second.layer >= layer;
-  };
-  for (const auto& [key, member] : {std::pair("young_GPa", &Rod::young_GPa),
-                                    {"shear_GPa", &Rod::shear_GPa},
-                                    {"density_kg_m3", &Rod::density_kg_m3},
-                                    {"strength_MPa", &Rod::strength_MPa}})
-    if (!is_set(key)) rod.*member = made.*member;
-  if (is_set("strength_MPa")) return;
-  if (is_set("yield_strain"))
-    rod.strength_MPa = 0;
-  else
-    rod.yield_strain = 0;
+  preset::take_material(second ? preset.rod_v : preset.rod, second ? given.rod_v : given.rod,
+                        [&](const char* key) {
+                          const auto set = set_at.find(key_label(table, key));
+                          return set != set_at.end() && set->second.layer >= layer;
+                        });
 }
 
 namespace {
 
-// whether a deciding key was set in a layer above that of the key, which had an effect in its layer
+// whether a later layer set one of the deciding keys: then the key had an effect in its own layer
 bool overridden_above(const PresetBuilder& builder, const std::vector<std::string>& deciders,
                       ValueLayer layer) {
   return std::ranges::any_of(deciders, [&](const std::string& decider) {
@@ -77,13 +67,13 @@ bool overridden_above(const PresetBuilder& builder, const std::vector<std::strin
   });
 }
 
-/// "[rod] diameter_mm: got 20.0 (neighbouring rods would touch), expected ...", or of a key without
-/// effect "[net] waist = 0.4 has no effect, leave it out: ..."
+/// Text of an error: "[rod] diameter_mm: got 20.0 (neighbouring rods would touch), expected ...",
+/// or for a key without effect "[net] waist = 0.4 has no effect, leave it out: ..."
 std::string error_text(const Preset& preset, const KeyError& fault, bool no_effect = false) {
-  // a network or a table may be of thousands of points
+  // a network or a table may have thousands of points
   constexpr std::size_t longest = 60;
   auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
-  // a value from a file is reported with its position there
+  // the contents of a file are not repeated: its own error names the position in it
   if (value.starts_with('{'))
     return fmt::format("{}: {}{}", fault.label(), no_effect ? "has no effect, leave it out: " : "",
                        fault.what);
@@ -93,7 +83,7 @@ std::string error_text(const Preset& preset, const KeyError& fault, bool no_effe
   return got_text(fault.label(), value, fault.what);
 }
 
-// a refused value left its default behind, with which nothing that the user wrote is at odds
+// a key whose value was refused has its default, so a contradiction with it is not the user's
 bool any_refused(const PresetBuilder& builder, const std::vector<std::string>& keys) {
   return std::ranges::any_of(keys, [&](const auto& key) { return builder.faulty.contains(key); });
 }
@@ -133,9 +123,9 @@ void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedErrors& er
       const auto set = builder.set_at.find(name);
       if (set == builder.set_at.end() || builder.faulty.contains(name)) continue;
       const ValueLayer layer = set->second.layer;
-      // what the base says may be for another case
+      // a value outside of cases may be used by another case
       if (layer != ValueLayer::one_case && unused_in[name] < runs.size()) continue;
-      // a key that says its default asks for nothing
+      // a key that is set to its default is accepted everywhere
       if (overridden_above(builder, one.others, layer) || any_refused(builder, one.others) ||
           is_default(builder, one))
         continue;

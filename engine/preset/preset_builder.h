@@ -1,4 +1,5 @@
-// Where the values of a preset came from, and what is wrong with them.
+// PresetBuilder: a preset while it is read, with the source of each value; and the errors of its
+// file.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,7 @@
 
 namespace gridshell::preset {
 
-/// What is laid over what.
+/// Layer that a value comes from; a later layer overrides the earlier ones.
 enum class ValueLayer { file, one_case, command_line };
 
 /// Source of a value: a position in a file, or an option of the command line.
@@ -31,7 +32,7 @@ class LocatedErrors {
   }
   bool empty() const { return errors_.empty(); }
 
-  /// A line each, in the order of the file and each once; those of the command line come last.
+  /// All errors, one per line in the order of the file, each once; those of the command line last.
   std::string report() const;
 
  private:
@@ -42,44 +43,47 @@ class LocatedErrors {
   std::vector<LocatedError> errors_;
 };
 
-/// Where the files lie that a preset names: in a folder, or with it in the program.
+/// Where the files that a preset names are searched for: in a folder, or among texts in the
+/// program.
 struct FileContext {
   std::filesystem::path folder;
   const std::map<std::string, std::string>* built_in = nullptr;  ///< texts by name
 };
 
-/// A file that a key names: it is read once every other key is known.
+/// A file that a key names. It is read after all other keys, since some of them (unit, spacing)
+/// decide how.
 struct NamedFile {
   std::string table, key;
-  int item = -1;  ///< of a list of tables
+  int item = -1;  ///< index in a list of tables; -1: no list
   std::string name;
   FileContext context;
 };
 
-// A preset while its file is read, and what its keys say together once all are laid.
-
 /// A preset that is being read, and the source of each of its keys.
 struct PresetBuilder {
   Preset preset;
-  /// Gives the rods of a table what their material says, but for what the same layer or a later one
-  /// sets itself.
+  Preset given;  ///< only `rod` and `rod_v`, without the values that their materials give
+  /// Sets the rod's values of the table ("rod" or "rod_v") to those of its material, except for
+  /// those that the layer of the material or a later one sets; to those of `given` without one.
   void take_material(const std::string& table);
 
-  std::map<std::string, SourceLocation> set_at;  ///< by bracketed name
+  std::map<std::string, SourceLocation> set_at;  ///< source of each key, by key_label()
   std::set<std::string> faulty;                  ///< keys whose value was refused
-  std::map<std::string, NamedFile> files;        ///< by bracketed name
-  std::vector<std::string> read, notes;          ///< what came of them, and what may not be meant
+  std::map<std::string, NamedFile> files;        ///< files that keys name, by key_label()
+  /// Sentences on the contents of the files that were read, and on what is probably a mistake.
+  std::vector<std::string> read, notes;
 
-  /// A list of tables made empty again, and where its keys were set.
+  /// Empties a list of tables and removes its keys from set_at, faulty and files.
   void forget_items(const std::string& table);
 };
 
-/// Adds errors for values that contradict each other; if none of them was set, the error is in
-/// `source`.
+/// Adds an error for each pair of values that contradict each other. Its position is that of the
+/// first key that was set; if none was, it is `source` without a line.
 void check_conflicts(const PresetBuilder& builder, const std::string& source,
                      LocatedErrors& errors);
 
-/// Keys that count for nothing in any of the runs of a file, because of what others are set to.
+/// Adds errors for keys that are set and have no effect: those of a case in its own run, those of
+/// the file in all `runs`.
 void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedErrors& errors);
 
 }  // namespace gridshell::preset

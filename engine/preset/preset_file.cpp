@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t longest_name = 100;
 
-// the name of a case, or empty with an error
+// the name of a case; empty if there was an error, which is added
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
                       TomlReader& reading) {
   const auto* node = table.get("name");
@@ -48,7 +48,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
                      const std::vector<Override>& overrides, TomlReader& reading) {
   PresetBuilder base;
   base.preset.name = name;
-  reading.apply(root, "case", base);  // and with it the lists of tables
+  reading.apply(root, "case", base);  // all but the cases
   const auto finish = [&](PresetBuilder builder) {
     for (const auto& change : overrides) reading.apply_override(change, builder);
     reading.read_files(builder);
@@ -104,7 +104,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-// names of the keys that count for something, or do not
+// whether a key has an effect in a preset
 class Used {
  public:
   explicit Used(const Preset& preset) {
@@ -119,7 +119,7 @@ class Used {
   std::set<std::tuple<std::string, std::string, int>> idle_;
 };
 
-// one item of a list of tables; if most keys are unused, those with their default are left out
+// one item of a list of tables; steps and load cases are written without the keys at their default
 std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item,
                       const char* in) {
   static const Preset defaults = default_items();
@@ -134,7 +134,7 @@ std::string item_text(const std::string& table, const Preset& preset, const Used
   return text;
 }
 
-// all items of one; `in`: "", or "case." of a case
+// all items of a list of tables; `in` is "", or "case." for the list of a case
 std::string list_text(const std::string& table, const Preset& preset, const Used& used,
                       const char* in) {
   std::string text;
@@ -154,8 +154,9 @@ std::string case_name_error(const std::string& name) {
   if (name.size() > longest_name)
     return fmt::format("{} letters, expected at most {}", name.size(), longest_name);
   const auto kind = std::filesystem::path(name).extension().string();
-  for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
-                            ".svg", ".toml", ".webm"})
+  for (const char* taken : {".csv",   ".dxf", ".gif",  ".glb", ".h5",  ".html", ".journal", ".json",
+                            ".jsonl", ".md",  ".mp4",  ".obj", ".pdf", ".ply",  ".png",     ".pvd",
+                            ".stl",   ".svg", ".toml", ".txt", ".vtp", ".xdmf", ".webm"})
     if (kind == taken)
       return fmt::format("a name of a file of a run, expected another ending than {}", kind);
   if (name == "frames") return "the folder of a movie's pictures, expected another name";
@@ -227,15 +228,22 @@ std::string to_toml(const Presets& presets) {
     for (const auto& field : field_table()) {
       if (is_list_name(field.table) || !in_case(field)) continue;
       const auto value = value_text(field, one.preset);
-      // the value written before, or else the default
+      // what a reader of the text knows without this line: the value of the base, or the default
       if (value == value_text(field, in_base(field) ? presets.base : defaults)) continue;
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
                           value);
     }
+    std::string items;
     each_list([&](const char* name, auto) {
-      const auto items = list_text(name, one.preset, in_case, "case.");
-      if (items != list_text(name, presets.base, in_base, "case.")) text += items;
+      const auto own = list_text(name, one.preset, in_case, "case.");
+      if (own == list_text(name, presets.base, in_base, "case.")) return;
+      // tables are written after all keys
+      if (own.empty())
+        text += fmt::format("{} = []\n", name);
+      else
+        items += own;
     });
+    text += items;
   }
   return text;
 }

@@ -31,12 +31,11 @@ struct Presets {
   Preset base;
   std::vector<Case> cases;
   std::vector<std::string> files =
-      {};  ///< what was read of each file that it names, one sentence each
-  std::vector<std::string> notes = {};  ///< what was read and is probably a mistake
+      {};  ///< one sentence on the contents of each file that the preset names
+  std::vector<std::string> notes = {};  ///< sentences on values that are probably a mistake
 };
 
-/// Why a case cannot have this name, which is that of a folder among a run's files; empty when it
-/// can.
+/// The error of a case's name, which becomes a folder among the files of a run; empty: it is valid.
 std::string case_name_error(const std::string& name);
 
 /// "table.key=value" as given to --set. Errors: bad_input when there is no key or no '='.
@@ -61,15 +60,15 @@ Result<Presets> read_preset_file(const std::filesystem::path& file,
 /// gives an equivalent preset.
 std::string to_toml(const Preset& preset);
 
-/// The base as above, then one [[case]] per case with the keys in which it differs from the base.
+/// TOML of the base, then one [[case]] per case with the keys in which it differs from the base.
 std::string to_toml(const Presets& presets);
 
-/// A key as the reference shows it, all of it as text.
+/// The texts of a key in the reference.
 struct KeyText {
   std::string table;  ///< empty at the top of the file
   std::string key, unit;
   std::string value;    ///< its default, as TOML
-  std::string allowed;  ///< "at least 0"
+  std::string allowed;  ///< "a number >= 0"
   std::string meaning;
 };
 

@@ -3,7 +3,7 @@
 namespace gridshell::preset {
 namespace {
 
-/// The rods of a table: all, or those of one family.
+/// Adds the keys of [rod] or [rod_v].
 void add_rods(FieldList<Rod> rods, const std::string& table) {
   rods.add<&Rod::material>(
       "gives young_GPa, shear_GPa, density_kg_m3 and strength_MPa where they are not given; "
@@ -76,13 +76,13 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       .unit("mm³")
       .refused({"width_mm"}, round,
                [](const Rod& rod) { return rod.modulus_mm3 > 0 && rod.rectangular(); });
-  const char* curved = "rods with natural curvature twist to keep their curve";
+  const char* curved = "rods with natural curvature twist as they bend";
   rods.add<&Rod::curvature_per_mm>("natural curvature in the vertical plane; above 0 arches up")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });
   rods.add<&Rod::curvature_sideways_per_mm>(
           "natural curvature in the plane of the grid; above 0 turns left, seen from above")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_sideways_per_mm != 0; });
-  // a round straight rod whose ends spin freely untwists by itself
+  // a round straight rod untwists by itself if its ends can rotate about their axes
   rods.add<&Rod::twist_rad_per_mm>("natural twist")
       .needs_twist(
           "rods with natural twist turn their axes", [=](const Preset& preset, const Rod& rod) {
@@ -101,7 +101,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
             [](const Preset& preset) { return preset.footprint.kind != FootprintKind::network; });
 }
 
-/// Whether a net ends in two rings.
+/// Whether the net is one of a surface of revolution, which ends in two rings.
 bool has_rings(const Preset& preset) {
   const NetKind kind = preset.net.kind;
   return preset.footprint.kind == FootprintKind::net && kind != NetKind::sphere &&

@@ -10,7 +10,8 @@ using Kinds = FootprintKind;
 bool is_circle(const Preset& preset) { return preset.footprint.kind == Kinds::circle; }
 bool is_curve(const Preset& preset) { return preset.footprint.kind == Kinds::curve; }
 
-/// Text of a message about a circle's radius: with its symbol if the key gives it indirectly.
+/// "[footprint] radius_mm = 126", or "R_o = 126 by [footprint] longest_leg" for a key that gives
+/// the radius indirectly.
 std::string radius_text(const char* key, const char* name, double radius) {
   return std::string(key).ends_with("radius_mm") ? fmt::format("{} = {}", key, radius)
                                                  : fmt::format("{} = {} by {}", name, radius, key);
@@ -22,7 +23,7 @@ std::string original_text(const Preset& preset) {
       preset.original_radius_mm());
 }
 
-/// The keys of a closed curve: of a footprint's boundary or of the actuated one.
+/// Adds the keys of a closed curve: the boundary of a footprint or the actuated boundary.
 void add_curve(FieldList<Curve> curve, const std::string& meaning) {
   curve.add<&Curve::kind>(meaning).named("boundary");
   const auto ellipses = {CurveKind::ellipse, CurveKind::superellipse};
@@ -45,8 +46,8 @@ void add_curve(FieldList<Curve> curve, const std::string& meaning) {
       });
 }
 
-/// Rules for the key of a circle's radius, which a footprint of kind "circle" uses and a curve
-/// whose boundary is a circle; the key `label` replaces it.
+/// Adds the rules of the key of a circle's radius: footprints of kind "circle" use it, and curves
+/// whose boundary is a circle. The key named `label`, with the member `other`, replaces it.
 template <class Struct>
 void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
                   const std::string& label) {
@@ -223,8 +224,9 @@ void add_actuation(std::vector<Field>& all) {
       [=](const Preset& preset) { return is_curve(preset) && preset.actuation.scale == 0; });
   add_curve(boundary, "actuated boundary of a footprint of kind \"curve\"");
   list.add<&Actuation::correspondence>(
-          "which point of it an edge point moves to: the one at the same fraction of the length "
-          "from +x, or at the same polar angle")
+          "point of the actuated boundary to which an edge point moves: at the same fraction of "
+          "the "
+          "length from the positive x-axis, or at the same polar angle")
       .used_by_footprint({Kinds::curve});
 }
 

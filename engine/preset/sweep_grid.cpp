@@ -8,13 +8,14 @@
 
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
+#include "engine/preset/materials.h"
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
 namespace {
 
 constexpr double most_runs = 100000;
-constexpr int largest_seed = 1 << 30;  // of [jitter]
+constexpr int largest_seed = 1 << 30;  // the largest allowed [jitter] seed
 
 const Field& field_of(const std::string& key) {
   const auto dot = key.find('.');
@@ -27,11 +28,11 @@ double combinations(const Sweep& sweep) {
   return count;
 }
 
-bool sweeps(const Sweep& sweep, const char* key) {
+bool sweeps(const Sweep& sweep, const std::string& key) {
   return std::ranges::find(sweep.over, key, &SweepAxis::key) != sweep.over.end();
 }
 
-/// "rod.diameter_mm = 0.2, actuation.radius_mm = 90.0"
+/// The values of a point: "rod.diameter_mm = 0.2, actuation.radius_mm = 90.0".
 std::string setting(const Sweep& sweep, const SweepPoint& point) {
   std::string text;
   for (std::size_t k = 0; k < sweep.over.size(); ++k)
@@ -47,13 +48,22 @@ class SweepCheck {
 
   void keys_set_elsewhere() {
     for (const SweepAxis& axis : sweep_.over) {
-      const auto set = builder_.set_at.find(name_of(field_of(axis.key)));
-      if (set == builder_.set_at.end() || set->second.layer == ValueLayer::file) continue;
-      errors_.add(set->second,
-                  fmt::format("{}: is set {} and swept by [sweep] over, expected one of the two",
-                              name_of(field_of(axis.key)),
-                              set->second.layer == ValueLayer::one_case ? "by a case"
-                                                                        : "by the command line"));
+      const Field& field = field_of(axis.key);
+      set_elsewhere(axis, name_of(field));
+      if (field.key == "file")
+        for (const char* key : {"kind", "file_unit", "join_mm", "linkage"})
+          set_elsewhere(axis, key_label(field.table == "net" ? "net" : "footprint", key));
+      if (field.key != "material") continue;
+      for (const char* key : keys_of_material)
+        if (!sweeps(sweep_, field.table + "." + key))
+          set_elsewhere(axis, key_label(field.table, key));
+      const Preset& preset = builder_.preset;
+      const Rod& rod = field.table == "rod" ? preset.rod : preset.rod_v;
+      if (rod.material != Material::none && std::ranges::count(axis.values, "\"none\"") > 0)
+        errors_.add(location("over"),
+                    fmt::format("[sweep] over: {}: got \"none\" and {} = \"{}\", expected one of "
+                                "the two",
+                                axis.key, name_of(field), word_of(rod.material)));
     }
   }
 
@@ -67,19 +77,30 @@ class SweepCheck {
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
                                 conflict.label(), value_text(field, point.preset, conflict.item),
                                 conflict.what));
-        return;  // the first says enough
+        return;  // one conflict is enough: other points often have the same
       }
       forget_used(point, idle);
     }
   }
 
  private:
+  /// Refuses a key that the axis sets or uses, if a case or the command line set it.
+  void set_elsewhere(const SweepAxis& axis, const std::string& key) {
+    const auto set = builder_.set_at.find(key);
+    if (set == builder_.set_at.end() || set->second.layer == ValueLayer::file) return;
+    errors_.add(
+        set->second,
+        fmt::format(
+            "{}: got a value from {}, but [sweep] over {} decides it, expected one of the two", key,
+            set->second.layer == ValueLayer::one_case ? "a case" : "the command line", axis.key));
+  }
+
   SourceLocation location(const char* key) const {
     const auto at = builder_.set_at.find(fmt::format("[sweep] {}", key));
     return at == builder_.set_at.end() ? SourceLocation{} : at->second;
   }
 
-  /// Removes those keys without effect that have an effect in this run.
+  /// Removes from `idle` the keys that have an effect in this run.
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
@@ -116,11 +137,16 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     found.values[k] = axis.values[rest % axis.values.size()];
     rest /= axis.values.size();
     const auto value = toml::parse("x = " + found.values[k]);
-    assign(field_of(axis.key), *value.get("x"), found.preset, {});
+    const Field& field = field_of(axis.key);
+    assign(field, *value.get("x"), found.preset, {});
+    forget_file_options(name_of(field), found.preset);
   }
-  // stills of the base are not on every path
+  for (auto [table, rod] : {std::pair("rod.", &found.preset.rod), {"rod_v.", &found.preset.rod_v}})
+    if (const std::string keys(table); sweeps(sweep, keys + "material"))
+      take_material(*rod, Rod(*rod), [&](const char* key) { return sweeps(sweep, keys + key); });
+  // the radii of the stills may be outside the path of this point
   found.preset.figure.radii_mm.clear();
-  // searches shake otherwise from point to point, and a point by itself can be made again
+  // every point searches with random numbers of its own, which do not depend on the other points
   if (found.preset.jitter.requested() && !sweeps(sweep, "jitter.seed")) {
     int& seed = found.preset.jitter.seed;
     seed = int((std::size_t(seed) + point) % (std::size_t(largest_seed) + 1));
@@ -140,7 +166,7 @@ void check_sweep(const std::vector<PresetBuilder>& runs, LocatedErrors& errors) 
   if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
     return errors.add(over, fmt::format("[sweep] over: got {:.0f} runs, expected at most {:.0f}",
                                         count, most_runs));
-  std::map<std::string, std::string> idle;  // until a point uses them
+  std::map<std::string, std::string> idle;  // swept keys that no point has used yet, and why
   for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
   const char* drawn = "[imperfection] seed";
   if (sweep.seeds > 1 && idle.contains(drawn))

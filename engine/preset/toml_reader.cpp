@@ -40,8 +40,8 @@ toml::table override_value(const std::string& value) {
   return toml::table{{"x", value}};
 }
 
-// what a mistyped key may have been: a near one of its table, the same one of another table, or
-// else the list of what there is
+// hint for an unknown key: a similar key of its table, the same key of another table, or else all
+// keys of its table
 std::string hint(const std::string& table, const std::string& name) {
   const auto here = keys_of(table);
   for (const Table& whole : tables())
@@ -67,7 +67,7 @@ struct Entry {
   std::string name() const { return table.empty() ? key : table + "." + key; }
 };
 
-/// The entries in the order of the file, which a table forgets.
+/// The entries in the order of the file; a toml::table sorts them by name.
 std::vector<Entry> entries_of(const toml::table& over) {
   std::vector<Entry> entries;
   for (const auto& [key, node] : over) {
@@ -85,7 +85,7 @@ std::vector<Entry> entries_of(const toml::table& over) {
   return entries;
 }
 
-/// Whether a name is a list of tables, or lies in one: "step", "step.2.depth_mm".
+/// Whether a name is that of a list of tables or of a key in one: "step", "step.2.depth_mm".
 bool in_list(const std::string& name) {
   return std::ranges::any_of(tables(), [&](const Table& table) {
     return table.list && (name == table.name || name.starts_with(table.name + "."));
@@ -94,21 +94,24 @@ bool in_list(const std::string& name) {
 
 /// Whether a key may name a file instead of its contents.
 bool takes_file(const Field& field) {
-  Preset any = default_items();  // only the type of its member counts
+  Preset any = default_items();  // only the type of the member matters
   return field.as<Points>(any) || field.as<SurfaceData>(any) || field.as<NetworkData>(any);
 }
 
-/// Whether a table of keys can change a number of a run: those of pictures and of the sweep itself
-/// cannot.
+/// Whether keys of a table can change the results of a run: those of pictures and of the sweep
+/// itself cannot.
 bool affects_results(const std::string& table) {
   static const std::vector<std::string> others{"", "sweep", "movie", "style", "figure", "page"};
   return std::ranges::find(others, table) == others.end();
 }
 
-/// Reads one entry; errors have its name.
+/// Reads one entry as an axis of a sweep.
 class AxisReader {
  public:
-  AxisReader(const Entry& entry, std::vector<AxisError>& errors) : entry_(entry), errors_(errors) {}
+  /// Files are read by the other keys of `preset`, and searched for as `context` says.
+  AxisReader(const Entry& entry, const Preset& preset, const FileContext& context,
+             std::vector<AxisError>& errors)
+      : entry_(entry), preset_(preset), context_(context), errors_(errors) {}
 
   std::optional<SweepAxis> read() {
     const std::size_t before = errors_.size();
@@ -144,10 +147,9 @@ class AxisReader {
   }
 
   void take(const toml::node& value) {
-    Preset preset;
-    if (const auto wrong = assign(*field_, value, preset, {}); !wrong.empty())
+    if (const auto wrong = assign(*field_, value, preset_, context_); !wrong.empty())
       return refuse(value, wrong);
-    auto text = value_text(*field_, preset);
+    auto text = value_text(*field_, preset_);
     if (!taken_.insert(text).second)
       return refuse(value, "in the list twice, expected another value");
     values_.push_back(std::move(text));
@@ -168,7 +170,8 @@ class AxisReader {
       return refuse(range, fmt::format("count: expected 2 to {}", most_values));
     if (range.contains("log") && !range["log"].is_boolean())
       return refuse(range, "log: expected true or false");
-    if (log && !(*from > 0 && *to > 0)) return refuse(range, "even factors need numbers > 0");
+    if (log && !(*from > 0 && *to > 0))
+      return refuse(range, "log = true: expected from and to above 0");
     for (std::int64_t k = 0; k < count->get(); ++k) {
       const double part = double(k) / double(count->get() - 1);
       const double value = log ? *from * std::pow(*to / *from, part) : *from + part * (*to - *from);
@@ -177,8 +180,8 @@ class AxisReader {
   }
 
   void take_number(double value, const toml::table& range) {
-    // steps of 0.1 shall read 0.3, not 0.30000000000000004
-    value = std::stod(fmt::format("{:.12g}", value));
+    // 12 digits: three steps of 0.1 give 0.3, not 0.30000000000000004
+    value = parse_number<double>(fmt::format("{:.12g}", value)).value_or(value);
     Preset any = default_items();
     if (!field_->as<int>(any)) return take(toml::value<double>(value));
     if (value != std::round(value) || std::abs(value) > 1e9)
@@ -187,6 +190,8 @@ class AxisReader {
   }
 
   const Entry& entry_;
+  Preset preset_;
+  const FileContext& context_;
   std::vector<AxisError>& errors_;
   const Field* field_ = nullptr;
   std::vector<std::string> values_;
@@ -195,10 +200,12 @@ class AxisReader {
 
 /// The axes in the order of the file. Errors are added to `errors`, and an axis with an error is
 /// left out. Each value was assigned to its key once and is in range.
-std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisError>& errors) {
+std::vector<SweepAxis> read_axes(const toml::table& over, const Preset& preset,
+                                 const FileContext& context, std::vector<AxisError>& errors) {
   std::vector<SweepAxis> axes;
   for (const Entry& entry : entries_of(over))
-    if (auto axis = AxisReader(entry, errors).read()) axes.push_back(std::move(*axis));
+    if (auto axis = AxisReader(entry, preset, context, errors).read())
+      axes.push_back(std::move(*axis));
   return axes;
 }
 
@@ -244,7 +251,8 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& builder) 
   override_.clear();
 }
 
-/// Sets a key of an item of a list of tables by its number, as in messages: step.2.depth_mm.
+/// Sets a key of an item of a list of tables, which is named by its number from 1:
+/// step.2.depth_mm.
 void TomlReader::override_item(const std::string& list, const Override& change,
                                PresetBuilder& builder) {
   const std::string rest = change.key.substr(list.size() + 1);
@@ -261,10 +269,11 @@ void TomlReader::override_item(const std::string& list, const Override& change,
              builder, item - 1);
 }
 
-// the items of a list of tables, each with its own defaults; those of a case replace the file's
+// reads a list of tables; the items of a case replace those of the file, an empty list removes them
 void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
                             PresetBuilder& builder) {
-  if (!value.is_array_of_tables()) {
+  const bool none = value.is_array() && value.as_array()->empty();
+  if (!value.is_array_of_tables() && !none) {
     errors_.add(location_of(key.source()),
                 fmt::format("{}: expected tables, each [[{}{}]]", name,
                             layer_ == ValueLayer::one_case ? "case." : "", name));
@@ -298,9 +307,11 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
   }
 }
 
+FileContext TomlReader::context() const { return override_.empty() ? context_ : FileContext{}; }
+
 void TomlReader::read_sweep_axes(const toml::table& over, PresetBuilder& builder) {
   std::vector<AxisError> wrong;
-  builder.preset.sweep.over = read_axes(over, wrong);
+  builder.preset.sweep.over = read_axes(over, builder.preset, context(), wrong);
   for (auto& fault : wrong) errors_.add(location_of(fault.location), std::move(fault.text));
   if (!wrong.empty()) builder.faulty.insert("[sweep] over");
 }
@@ -328,7 +339,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
     return;
   }
   builder.set_at[full] = location;
-  const FileContext context = override_.empty() ? context_ : FileContext{};
+  const FileContext context = this->context();
   builder.files.erase(full);
   if (const auto* file = value.as_string(); file && !file->get().empty() && takes_file(*field)) {
     builder.faulty.erase(full);
@@ -338,7 +349,8 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
   const auto wrong = assign(*field, value, builder.preset, context, item);
   if (wrong.empty()) {
     builder.faulty.erase(full);
-    // the strength by yield_strain may come after that of the material
+    if (table.starts_with("rod")) assign(*field, value, builder.given, context);
+    // yield_strain may be set after material, and replaces its strength
     if (table.starts_with("rod") && (name == "material" || name == "yield_strain"))
       builder.take_material(table);
   } else {
@@ -359,15 +371,16 @@ void TomlReader::read_files(PresetBuilder& builder) {
     builder.faulty.insert(full);
     errors_.add(builder.set_at.at(full), full + ": " + wrong);  // names the file
   }
-  // values that were read are stored in the preset in mm
-  if (builder.files.contains(key_label("footprint", "file")) ||
-      builder.files.contains(key_label("actuation", "file"))) {
-    builder.preset.footprint.file_unit = FileUnit::file;
-    builder.preset.footprint.join_mm = 0;
-    builder.preset.footprint.linkage = false;
+  for (const auto& [full, file] : builder.files) forget_file_options(full, builder.preset);
+}
+
+void forget_file_options(const std::string& key, Preset& preset) {
+  if (key == "[footprint] file" || key == "[actuation] file") {
+    preset.footprint.file_unit = FileUnit::file;
+    preset.footprint.join_mm = 0;
+    preset.footprint.linkage = false;
   }
-  if (builder.files.contains(key_label("net", "file")))
-    builder.preset.net.file_unit = FileUnit::file;
+  if (key == "[net] file") preset.net.file_unit = FileUnit::file;
 }
 
 }  // namespace gridshell::preset

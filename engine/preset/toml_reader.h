@@ -1,4 +1,4 @@
-// Puts a TOML value into a preset's field, or says in a sentence why it cannot.
+// Reads TOML into presets: single values, the axes of a sweep, complete files, options.
 #pragma once
 
 #include <toml++/toml.h>
@@ -14,11 +14,17 @@
 
 namespace gridshell::preset {
 
-/// Assigns `value` to a member of `preset` (for a list of tables of item `item`, below 0: the
-/// last). Returns an empty text, or the error and the allowed values, with `preset` unchanged.
-/// Files are searched for in the folder of the preset; `report` receives the contents of one.
+/// Assigns `value` to the member of `preset` that `field` names; in a list of tables to that of
+/// item `item` (below 0: the last item). Returns an empty text, or the error and the allowed
+/// values, with `preset` unchanged. A file that `value` names is searched for as `context` says;
+/// `report` receives a sentence on its contents.
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
                    const FileContext& context, int item = -1, FileReport* report = nullptr);
+
+/// Sets the options by which the file of a key, "[footprint] file", is read to their defaults: its
+/// contents are in the preset, in mm and joined, and the options must not be applied again when the
+/// preset is written and read.
+void forget_file_options(const std::string& key, Preset& preset);
 
 /// The value as a message shows it: TOML on one line, shortened if long.
 std::string toml_text(const toml::node& value);
@@ -30,25 +36,25 @@ bool is_list_name(const std::string& name);
 //   rod.diameter_mm = [0.2, 0.3]
 //   actuation.radius_mm = { from = 90, to = 110, count = 5 }
 
-/// What is wrong with a part of a table, and where.
+/// An error in the axes of a sweep, and its position.
 struct AxisError {
   toml::source_region location;
   std::string text;  ///< "[sweep.over] rod.diameter_mm: got "x" (a string), expected a number > 0"
 };
 
-// Applies TOML to presets and collects the errors.
-
+/// Applies TOML to presets and collects the errors.
 class TomlReader {
  public:
   /// `source` names the text in messages.
   TomlReader(std::string source, FileContext context)
       : source_(std::move(source)), context_(std::move(context)) {}
 
-  /// The keys of a file, or of one of its cases, over a draft; `apart` is read by someone else.
+  /// Applies the keys of a file (`apart` = "case"), or of one of its cases (`apart` = "name"), to a
+  /// builder. The key `apart` itself is skipped: the caller reads it.
   void apply(const toml::table& root, const std::string& apart, PresetBuilder& builder);
-  /// One value of the command line over a draft.
+  /// Applies one value of the command line to a builder.
   void apply_override(const Override& change, PresetBuilder& builder);
-  /// Reads the files that a draft names, once all that says how is laid over it.
+  /// Reads the files that a builder's keys name. Call it last: other keys decide how they are read.
   void read_files(PresetBuilder& builder);
 
   const std::string& source() const { return source_; }
@@ -64,11 +70,13 @@ class TomlReader {
                   PresetBuilder& builder, int item = -1);
 
   void read_sweep_axes(const toml::table& over, PresetBuilder& builder);
+  FileContext context()
+      const;  // where the files of the part that is being applied are searched for
 
   std::string source_;
-  FileContext context_;                  // the file
-  std::string override_;                 // while an override is laid: its option
-  ValueLayer layer_ = ValueLayer::file;  // of what is laid of the file
+  FileContext context_;                  // where the file's preset searches for files
+  std::string override_;                 // the option whose value is being applied; else empty
+  ValueLayer layer_ = ValueLayer::file;  // layer of the part of the file that is being applied
   LocatedErrors errors_;
 };
 

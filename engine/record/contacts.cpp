@@ -26,7 +26,7 @@ ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd
   for (const Segment& s : search.segments_) lay_sections(s);
 }
 
-/// Box and chord of a segment.
+/// Computes box and chord of a segment, and the positions of its points along the rod.
 void ShapeContacts::lay_out(std::size_t k) {
   const std::size_t begin = std::size_t(of_.segments_[k].begin),
                     end = std::size_t(of_.segments_[k].end);
@@ -34,7 +34,7 @@ void ShapeContacts::lay_out(std::size_t k) {
   chord.along = (x_[end] - x_[begin]).stableNormalized();
   chord.node[0] = of_.places_[begin];
   chord.node[1] = of_.places_[end];
-  // the least dot / |edge|, as a fraction that is not divided
+  // least cosine dot / |edge|, as the two squares of the fraction: no division per edge
   double dot2 = 1, edge2 = 1;
   bool back = false;
   Box box(x_[begin]);
@@ -71,8 +71,8 @@ Eigen::AlignedBox3d ShapeContacts::grown(int k, int begin, int end) {
   return tree_[middle + tree_at_[k]] = box;
 }
 
-/// Whether two segments keep a distance of one diameter, by their chords and their largest
-/// distances from these.
+/// Whether two segments are more than a diameter away from each other, by a bound: the distance of
+/// their chords less the largest distances of the segments from their chords.
 bool ShapeContacts::apart(int a, int b) const {
   const Segment &one = segment(a), &other = segment(b);
   const auto x = [&](int point) { return x_[point]; };
@@ -84,8 +84,9 @@ bool ShapeContacts::apart(int a, int b) const {
          reach * reach;
 }
 
-/// Whether two segments at one joint leave it in cones so different that they keep a distance of
-/// one diameter outside its cylinder.
+/// Whether two segments that meet at one joint are more than a diameter away from each other
+/// outside the joint's cylinder, because the cones around their chords are far enough from each
+/// other.
 bool ShapeContacts::apart_but_at_joint(int a, int b) const {
   const Chord &ca = chord_[a], &cb = chord_[b];
   int shared = 0;
@@ -109,7 +110,8 @@ bool ShapeContacts::apart_but_at_joint(int a, int b) const {
          2 * radii;
 }
 
-/// Where the two share a joint, or their rods an end, by the angle between them there.
+/// If the segments of a search meet at these two points, in a joint or as ends at one support, adds
+/// the distance from there within which points are not compared (ContactSearch).
 void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
   const Segment &a = segment(search.a), &b = segment(search.b);
   const auto ends = [](const Segment& s, int point) {
@@ -144,7 +146,7 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   if (const auto [first, last] = of_.ends_[std::size_t(one.rod)]; node(first) == node(last))
     search.round = along_[last] - along_[first];
   if (a == b) {
-    add_joint(search, one.begin, one.end);  // of a ring
+    add_joint(search, one.begin, one.end);  // a ring with one joint
     return search;
   }
   for (const int point : {one.begin, one.end})
@@ -193,7 +195,7 @@ void ShapeContacts::look(Search& search, int begin_a, int end_a, int begin_b, in
   }
 }
 
-/// Every two edges of one segment.
+/// Compares every two edges of one segment.
 void ShapeContacts::look_within(Search& search, int begin, int end) const {
   if (end - begin == 1) return;
   const int middle = (begin + end) / 2;
@@ -225,8 +227,8 @@ void ShapeContacts::rods(bool by_all_pairs) {
   double widest = 0;
   for (const double radius : of_.radius_mm_) widest = std::max(widest, radius);
   for (int a = 0; a < count; ++a) {
-    // within 50 degrees of its chord a rod cannot touch itself: points pi S apart along it are 2 S
-    // apart
+    // a segment whose edges are all within 50 degrees of its chord cannot touch itself: points at a
+    // distance pi S along it are at least 2 S from each other
     if (chord_[a].cosine > 2 / std::numbers::pi) continue;
     Search search = between(a, a);
     grow_tree(a);
@@ -330,7 +332,7 @@ ContactSearch::ContactSearch(const Layout& layout)
             {int(r), first + begin, first + k, axis[std::size_t(rod[begin])], joint});
         begin = k;
       }
-      // a ring comes back to the joint that it begins at
+      // a ring ends at the joint at which it starts
       const bool ring = last > 1 && rod.front() == rod.back();
       if (joint < 0 || (ring && k == last)) continue;
       auto& beside = axes_[joint].beside;

@@ -16,18 +16,20 @@ inline constexpr int contact_kinds = 3;
 
 struct Contact {
   ContactKind kind = ContactKind::rods;
-  int first = 0, second = -1;  ///< of Layout::rods, or of Layout::joints; -1: the table
-  double gap_mm = 0;           ///< between the surfaces, below 0: by how much they overlap
-  Eigen::Vector3d at{0, 0, 0};
+  int first = 0, second = -1;   ///< indices into Layout::rods or Layout::joints; -1: the table
+  double gap_mm = 0;            ///< gap between the surfaces; below 0: they overlap by that much
+  Eigen::Vector3d at{0, 0, 0};  ///< position, mm
 };
 
 struct Contacts {
-  std::vector<Contact> places;  ///< rods, joints, table, of each kind the deepest first
+  /// All interpenetrations: those of rods, of joints, with the table; the deepest of each kind
+  /// first.
+  std::vector<Contact> places;
   /// Least gaps between the surfaces of rods away from their joints and between the joints'
-  /// cylinders, mm; NaN where they are above a rod's and a joint's diameter.
+  /// cylinders, mm; NaN if they are above the diameter of a rod or of a joint.
   double rod_gap_mm = unknown, joint_gap_mm = unknown;
 
-  /// The deepest of a kind, or nothing.
+  /// The deepest interpenetration of a kind; null if there is none.
   const Contact* deepest(ContactKind kind) const;
 };
 
@@ -58,31 +60,32 @@ class ContactSearch {
  public:
   explicit ContactSearch(const Layout& layout);
 
-  /// Interpenetrations in a shape, 3 x nodes. Trees of bounding boxes leave out distant pairs; the
-  /// time is about that of computing the edges' boxes.
+  /// Interpenetrations in a shape, 3 x nodes, mm. Trees of bounding boxes exclude distant pairs;
+  /// the time is about that of computing the edges' boxes.
   Contacts in(const Eigen::Matrix3Xd& nodes) const;
-  /// Interpenetrations by comparison of every pair of edges, a reference for tests.
+  /// Interpenetrations by comparison of every pair of edges: a reference for tests.
   Contacts by_all_pairs(const Eigen::Matrix3Xd& nodes) const;
 
  private:
   friend class ShapeContacts;
-  /// A rod's piece between two joints, or a joint and its end.
+  /// The piece of a rod between two joints, or between a joint and an end of the rod.
   struct Segment {
     int rod = 0;
-    int begin = 0, end = 0;  ///< points, both among them
-    int from = -1, to = -1;  ///< joints at them; -1: an end
+    int begin = 0, end = 0;  ///< first and last point, as indices into points_
+    int from = -1, to = -1;  ///< joints at these two points; -1: an end of the rod
   };
   /// The node of a joint, and its neighbours on two of its rods; -1: fewer than two rods.
   struct Axis {
     int node = 0;
     std::array<int, 4> beside{-1, -1, -1, -1};
   };
-  std::vector<int> points_;  ///< nodes, rod after rod
-  std::vector<int> places_;  ///< of the points: their nodes, of joints those of their first rod
+  std::vector<int> points_;  ///< node of each point of a rod, rod after rod
+  /// Like points_, with the node of its first rod for all rods of a joint.
+  std::vector<int> places_;
   std::vector<Segment> segments_;
-  std::vector<std::array<int, 2>> ends_;  ///< of each rod, points
-  std::vector<double> radius_mm_;         ///< of each rod; of a lath as far as its corners reach
-  /// Half the width and half the thickness of each rod that is a lath, along the normal; else 0.
+  std::vector<std::array<int, 2>> ends_;  ///< first and last point of each rod
+  std::vector<double> radius_mm_;         ///< radius of each rod; of a lath half its diagonal
+  /// Half the width and half the thickness (along the normal) of each rod that is a lath; else 0.
   std::vector<std::array<double, 2>> half_mm_;
   std::vector<Axis> axes_;
   double joint_diameter_mm_ = 0, joint_height_mm_ = 0, table_mm_ = unknown;

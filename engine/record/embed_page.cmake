@@ -1,4 +1,4 @@
-# Writes a .cpp that holds page.html as text. Arguments: PAGE, OUTPUT.
+# Writes a .cpp that contains page.html as text. Arguments: PAGE, OUTPUT.
 file(READ ${PAGE} content)
 file(WRITE ${OUTPUT} "// Generated from page.html.
 #include \"engine/record/shape_export.h\"

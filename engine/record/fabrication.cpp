@@ -80,7 +80,7 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm) {
 Result<FabricationPlan> spliced(FabricationPlan plan, double stock_mm) {
   for (CutRod& rod : plan.rods) {
     if (stock_mm == 0 || rod.length_mm <= stock_mm) continue;
-    std::vector<double> stops{0};  // ends and joints; a splice is in the middle between two
+    std::vector<double> stops{0};  // ends and joints; splices are in the middle between two of them
     stops.insert(stops.end(), rod.joint_marks_mm.begin(), rod.joint_marks_mm.end());
     stops.push_back(rod.length_mm);
     for (double from = 0; rod.length_mm - from > stock_mm;) {

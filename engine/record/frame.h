@@ -9,7 +9,7 @@
 
 namespace gridshell::record {
 
-/// Marks a quantity that does not apply or is not known.
+/// Value of a quantity that does not apply or is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// One recorded state, filled by simulate::frame_of() and its callers. A quantity that does not
@@ -18,14 +18,14 @@ struct Frame {
   /// Position in the run, from 0.
   int index = 0;
   double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
-  /// Current radius of a circular boundary, mm; depth of a push, mm.
+  /// Current radius of a circular boundary, and depth of a push, mm.
   double boundary_radius_mm = unknown;
   double depth_mm = unknown;
   double force_N = unknown;  ///< positive when the shell resists
   /// During a push, the fraction of the joints that moved more than 0.1 and more than 0.5 of the
   /// depth, and the lowest latitude, degrees, among the former.
   double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
-  Energies energies;           ///< by term, mJ
+  Energies energies;           ///< energy of each term, mJ
   double height_mm = 0;        ///< z of the highest joint above the plane of the boundary
   double lowest_mm = unknown;  ///< z of the lowest point of a rod above that plane
   /// Number of interpenetrations of rods, joints and table (contacts.h); -1: not computed. Least
@@ -35,7 +35,7 @@ struct Frame {
   double total_K = 0;  ///< sum of cell_K, rad
   /// Largest unbalanced force, N.
   double residual_N = 0;
-  int negative_pivots = 0;  ///< of the Hessian; 0: stable, -1: not known
+  int negative_pivots = 0;  ///< negative pivots of the Hessian; 0: stable, -1: not known
   /// Largest error of a node's position, by the difference of two meshes, mm.
   double error_estimate_mm = unknown;
   /// Newton iterations for this state.
@@ -52,7 +52,7 @@ struct Frame {
   /// springs of joints.
   double joint_angle_deg = unknown, joint_angle_error_deg = unknown;
   double smallest_joint_angle_deg = unknown, largest_joint_angle_deg = unknown;
-  double one_angle_error_deg = unknown;  ///< of a single joint
+  double one_angle_error_deg = unknown;  ///< largest error of the angle of a single joint
   double joint_torque_Nmm = unknown, joint_torque_error_Nmm = unknown;
   double springs_error_mJ = unknown;
   /// Largest strain of a fibre by bending, (curvature - natural curvature) times the distance of
@@ -64,7 +64,7 @@ struct Frame {
   double largest_stress_MPa = unknown, utilisation = unknown;
   std::string stress_at;
   std::string event;            ///< a snap, a limit, a recovery; empty if nothing happened
-  std::string kind = "solved";  ///< or "interpolated": between solved states, without a residual
+  std::string kind = "solved";  ///< or "interpolated" between solved states, without a residual
   Eigen::Matrix3Xd nodes;       ///< 3 x nodes, mm; joints first
   Eigen::VectorXd cell_K;       ///< integrated Gauss curvature K_square of each cell, rad
   /// The next arrays are of the finest mesh, except for reactions_N, which is extrapolated where
@@ -90,9 +90,9 @@ struct Frame {
   /// (rad), number of cells.
   Eigen::MatrixX3d K_bins;
 
-  /// Fraction of the actuation (not of an indentation). Boundary points move on straight lines,
-  /// linearly in it.
-  double actuation = 0;  ///< in [0, 1]
+  /// Progress of the actuation (not of an indentation), 0 to 1. Boundary points move on straight
+  /// lines, linearly in it.
+  double actuation = 0;
 };
 
 /// Calls visit("energy_bend_mJ", energy) for every term, energy in mJ.

@@ -9,14 +9,14 @@
 namespace gridshell::record {
 namespace {
 
-/// How many points the rods before a rod have.
+/// Number of points of all rods before rod `rod`.
 std::size_t points_before(const Layout& layout, std::size_t rod) {
   std::size_t points = 0;
   for (std::size_t k = 0; k < rod; ++k) points += layout.rods[k].size();
   return points;
 }
 
-/// Means at nodes of values given on several rods.
+/// Means of values that several rods give at a node.
 class NodeMeans {
  public:
   explicit NodeMeans(Eigen::Index nodes)
@@ -42,7 +42,7 @@ double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf, d
 
 namespace {
 
-/// The unit that values are given in from a size on.
+/// A larger unit for values of at least `from`: 1 `larger` = `times` `unit`.
 struct LargeUnit {
   const char *unit, *larger;
   double times, from;
@@ -66,7 +66,7 @@ std::string with_error(double value, double error, const char* unit) {
                        error < 1 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error),
                        end);
   }
-  // two digits of it, and none of the value that say less
+  // two digits of the error, and the digits of the value down to the last of them
   const double step = std::pow(10, place - 1);
   return fmt::format("{:.0f} ± {:.0f}{}", std::nearbyint(value / step) * step,
                      std::nearbyint(error / step) * step, end);
@@ -94,7 +94,7 @@ std::vector<double> axial_force_N(const Layout& layout, const Frame& frame, std:
   const std::size_t points = layout.rods[rod].size();
   std::vector<double> force(points, unknown);
   if (frame.axial_force_N.size() == 0 || points < 2) return force;
-  // a rod has one edge less than points
+  // each rod before this one has one edge less than points
   const double* edges = frame.axial_force_N.data() + points_before(layout, rod) - rod;
   force.front() = edges[0];
   force.back() = edges[points - 2];
@@ -133,7 +133,7 @@ Eigen::VectorXd stress_of_nodes_MPa(const Layout& layout, const Frame& frame, bo
 
 Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& frame) {
   if (frame.bending_mJ_per_m.size() == 0) return {};
-  // where a rod ends on another it does not bend
+  // a rod that ends on another one has no bending moment there: rods that pass through count first
   NodeMeans through(frame.nodes.cols()), ends(frame.nodes.cols());
   Eigen::Index point = 0;
   for (const std::vector<int>& rod : layout.rods)

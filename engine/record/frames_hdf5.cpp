@@ -22,7 +22,7 @@ hid_t memory_type(double) { return H5T_NATIVE_DOUBLE; }
 
 std::string dataset_of(const FrameColumn& column) { return "/frames/" + column.name; }
 
-/// A column's values over all frames.
+/// Calls visit(value) for a column of every frame, if the column is of type T.
 template <class T, class Frames, class Visit>
 void each_value(const FrameColumn& column, Frames& frames, Visit visit) {
   for (auto& frame : frames)
@@ -31,7 +31,7 @@ void each_value(const FrameColumn& column, Frames& frames, Visit visit) {
     });
 }
 
-/// All columns of a run, of frames without their nodes.
+/// Writes all columns of a run; `heads` are the frames without their nodes.
 void write_columns(hdf5::Writer& file, const std::vector<Frame>& heads) {
   const Frame any;
   const auto write = [&](const FrameColumn& column) {
@@ -50,7 +50,7 @@ void write_columns(hdf5::Writer& file, const std::vector<Frame>& heads) {
   write(actuation_column);
 }
 
-/// A frame without bins has unknown ones.
+/// Writes /K_bins; frames without bins get NaN.
 void write_bins(hdf5::Writer& file, const std::vector<Frame>& heads) {
   Eigen::Index bins = 0;
   for (const Frame& frame : heads) bins = std::max(bins, frame.K_bins.rows());
@@ -79,7 +79,7 @@ Dims dims_of(std::size_t frames, Eigen::Index size) {
   return dims;
 }
 
-/// Frames that stay in the file; the columns, which are small, are in memory.
+/// Frames whose arrays are read from the file on demand; their columns are in memory.
 class StoredFrames : public FrameSource {
  public:
   StoredFrames(std::shared_ptr<hdf5::Reader> file, std::vector<Frame> heads, Eigen::Index nodes,
@@ -131,7 +131,7 @@ void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Fram
   const std::string name = dataset_of(column);
   const Frame any;
   visit_column(column, any, [&]<class T>(const T&) {
-    // an older version did not know it
+    // older versions did not write every column
     if (!file.has(name)) return each_value<T>(column, heads, [](T& value) { make_unknown(value); });
     std::vector<T> values;
     if constexpr (std::is_same_v<T, std::string>)
@@ -174,7 +174,7 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
                        "those of the finest mesh"
                      : "of the finest mesh");
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, hsize_t(layout.cells.size())}, nullptr, "rad");
-  // loads and braces may come late: frames before have none
+  // the first frames may have no loads or braces: their rows are filled with NaN
   std::set<std::string> known;
   const auto begin_fields = [&](const Frame& frame, hsize_t from) {
     each_rod_field([&]<class Values>(const char* name, const char* unit, SizeOf size_of,

@@ -14,17 +14,17 @@ namespace {
 
 constexpr std::size_t most_shapes = 60, most_model_bytes = 20'000'000;
 
-// numbers of the format
+// constants of the glTF format
 constexpr int type_float = 5126, type_uint = 5125, for_vertices = 34962, for_indices = 34963;
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 
-/// The binary part as it grows, and the views and accessors into it.
+/// Builds the binary part of the file, with the views and accessors into it.
 class Buffer {
  public:
   Json views = Json::array(), accessors = Json::array();
 
-  /// 3 x n positions or directions, with their bounds; returns the accessor.
+  /// Adds 3 x n positions or directions with their bounds. Each function returns its accessor.
   int vectors(const Eigen::Matrix3Xd& values, int target = for_vertices) {
     const Eigen::Matrix3Xf single = values.cast<float>();
     const int view = add(single.data(), 4 * std::size_t(single.size()), target);
@@ -70,12 +70,13 @@ class Buffer {
   std::string bytes_;
 };
 
-/// All rods as one surface.
+/// A surface of triangles: all rods, all cells, or a joint.
 struct Surface {
   Eigen::Matrix3Xd vertices, normals;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// All rods as tubes with `sides` sides.
 Surface tubes(const record::Layout& layout, const record::Frame& frame, int sides) {
   Surface all;
   Eigen::Index size = 0;
@@ -136,12 +137,13 @@ Surface ball(double radius_mm) {
   return all;
 }
 
-/// How fine it may be so that it stays under most_model_bytes: positions and normals of each shape.
+/// Number of sides of the tubes and of key shapes.
 struct ModelDetail {
   int sides = 0;
   std::size_t shapes = 0;
 };
 
+/// The finest detail with which the file is smaller than most_model_bytes.
 Result<ModelDetail> model_detail(const record::Trajectory& run) {
   std::size_t points = 0;
   for (const auto& rod : run.layout.rods) points += rod.size();
@@ -165,7 +167,7 @@ Json material(const char* name, std::array<double, 4> colour, bool two_sided) {
           {"doubleSided", two_sided}};
 }
 
-/// A mesh that is the first of its shapes, and differs from it in the others.
+/// A mesh with morph targets: its first shape, and the differences of the other shapes from it.
 class MorphingMesh {
  public:
   MorphingMesh(const char* name, const Surface& first, int material, Buffer& buffer)
@@ -206,7 +208,7 @@ std::string chunk(const std::string& content, const char* type, char padding) {
   return bytes.append(type, 4) + padded;
 }
 
-/// The file as it comes together.
+/// Builds the file.
 class Gltf {
  public:
   Gltf(const record::Layout& layout, const std::string& title) : layout_(layout) {
@@ -224,13 +226,13 @@ class Gltf {
 
   Buffer& buffer() { return buffer_; }
 
-  /// A mesh and the node that shows it; both morph.
+  /// Adds a mesh that morphs, and a node that shows it.
   void add_morphing(const char* name, Json mesh) {
     json_["meshes"].push_back(std::move(mesh));
     morphing_.push_back(add_node({{"name", name}, {"mesh", json_["meshes"].size() - 1}}));
   }
 
-  /// One sphere per joint, at the first of its positions.
+  /// Adds one sphere per joint, at its position in the first shape.
   void add_joints(const std::vector<Eigen::Matrix3Xd>& places) {
     const double radius_mm = 0.5 * layout_.joint_diameter_mm;
     json_["meshes"].push_back(MorphingMesh("joint", ball(radius_mm), 1, buffer_).mesh({}));
@@ -244,7 +246,7 @@ class Gltf {
     }
   }
 
-  /// From key shape to key shape, evenly in time.
+  /// Adds the animation from key shape to key shape, at equal intervals of time.
   void animate(const std::vector<Eigen::Matrix3Xd>& places, double seconds) {
     const std::size_t keys = places.size();
     std::vector<float> times, weights;
@@ -290,10 +292,10 @@ class Gltf {
   const record::Layout& layout_;
   Json json_;
   Buffer buffer_;
-  std::vector<int> morphing_, moving_;  ///< nodes
+  std::vector<int> morphing_, moving_;  ///< nodes of the file with morph targets; of joints
 };
 
-/// Colours of the cells by their K, for four vertices each.
+/// Colours of the cells by their K, each repeated for its four vertices.
 std::vector<std::array<float, 4>> colours_of(const Eigen::VectorXd& K) {
   std::vector<std::array<float, 4>> colours;
   const ColourRange range = range_of(K);
@@ -308,6 +310,7 @@ std::vector<std::array<float, 4>> colours_of(const Eigen::VectorXd& K) {
 
 Result<std::string> to_glb(const record::Trajectory& run, const std::string& title,
                            double seconds) {
+  if (run.frames.empty()) return invalid("got no frame, expected at least one");
   TRY(fine, model_detail(run));
   const record::Layout& layout = run.layout;
   Gltf gltf(layout, title);
@@ -315,10 +318,12 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
   const auto keys = even_frames(run.frames.size(), fine->shapes);
   const std::vector<int> joints = nodes_of_joints(layout);
   const record::Frame& start = run.frames[keys.front()];
+  if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
   MorphingMesh rods("rods", tubes(layout, start, fine->sides), 0, gltf.buffer()),
       skin("cells", cells(layout, start), 2, gltf.buffer());
   for (const std::size_t key : keys) {
     const record::Frame& frame = run.frames[key];
+    if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
     places.push_back(frame.nodes(Eigen::all, joints));
     if (key == keys.front()) continue;
     rods.add(tubes(layout, frame, fine->sides));

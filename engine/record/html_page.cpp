@@ -45,7 +45,7 @@ std::array<double, 3> linear(const std::array<double, 3>& srgb) {
 
 namespace {
 
-constexpr std::size_t most_page_bytes = 9'000'000;  // of positions, as written
+constexpr std::size_t most_page_bytes = 9'000'000;  // of the frames, in base64 and JSON
 
 std::string base64(const std::vector<std::uint16_t>& numbers) {
   static constexpr char letters[] =
@@ -65,7 +65,7 @@ std::string base64(const std::vector<std::uint16_t>& numbers) {
   return text;
 }
 
-/// The box around all frames, and mm a step in it.
+/// The box around all frames; step_of() is the step to which positions are rounded, mm.
 using Extent = Eigen::AlignedBox3d;
 double step_of(const Extent& extent) { return std::max(extent.sizes().maxCoeff() / 65535, 1e-12); }
 
@@ -107,7 +107,7 @@ Json figures(const record::Frame& frame) {
   return json;
 }
 
-/// Every n-th point of a boundary, to a tenth of a micrometre.
+/// At most 128 points of a boundary, evenly chosen, to a tenth of a micrometre.
 Json boundary_json(const Eigen::Matrix3Xd& polyline) {
   constexpr Eigen::Index most = 128;
   const Eigen::Index each = (polyline.cols() + most - 1) / most;
@@ -120,7 +120,7 @@ Json boundary_json(const Eigen::Matrix3Xd& polyline) {
   return points;
 }
 
-/// Ends of the braces that are there, as nodes.
+/// [node, node] of every brace in this frame.
 Json braces_json(const record::Layout& layout, const record::Frame& frame) {
   Json braces = Json::array();
   for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
@@ -147,7 +147,7 @@ Json forces_json(const record::Layout& layout, const Eigen::Matrix3Xd& forces_N)
   return forces;
 }
 
-/// Constrained nodes: those with a reaction.
+/// Nodes on which a reaction acts, which the page marks as supports.
 Json held_json(const record::Layout& layout, const record::Frame& frame) {
   Json held = Json::array();
   for (const Json& one : forces_json(layout, frame.reactions_N)) held.push_back(one[0]);
@@ -173,8 +173,15 @@ Json layout_json(const record::Layout& layout) {
 }  // namespace
 
 Result<std::string> to_page(const record::Trajectory& run, const std::string& title) {
-  const auto nodes = std::size_t(run.frames.front().nodes.cols());
-  const std::size_t a_frame = 8 * nodes + 8 * run.layout.cells.size() + 400;
+  if (run.frames.empty()) return invalid("got no frame, expected at least one");
+  const record::Frame& end = run.frames.back();
+  if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
+  const auto nodes = std::size_t(end.nodes.cols());
+  // bytes of a node, a K, a brace, a load and a support, and of the figures
+  const std::size_t braces = braces_json(run.layout, end).size(),
+                    loads = end.loads_N.size() > 0 ? run.layout.supports.size() : 0,
+                    a_frame = 8 * nodes + 8 * run.layout.cells.size() + 16 * braces + 48 * loads +
+                              8 * run.layout.supports.size() + 400;
   if (a_frame > most_page_bytes)
     return invalid("one frame of {} nodes takes more than {} MB in a page", nodes,
                    most_page_bytes / 1'000'000);

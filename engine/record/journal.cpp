@@ -17,14 +17,14 @@ namespace gridshell::record {
 namespace fs = std::filesystem;
 namespace {
 
-// version 0.2 wrote the older
+// versions before 0.2.0 wrote the older one
 constexpr std::string_view first_line = "gridshell journal 2\n",
                            older_first_line = "gridshell journal 1\n";
 enum RecordKind : std::uint32_t { head_record = 1, frame_record = 2 };
 constexpr std::size_t before_payload = 12, after_payload = 8;
-// of a record: more than any shell needs, and little enough to allocate
+// size of a record: more than any shell needs, and small enough to allocate
 constexpr std::uint64_t largest_record = std::uint64_t(1) << 31;
-// what a movie numbers its frames up to; snaps in time add some
+// more than the largest number of frames of a movie, as snaps in time add frames
 constexpr int largest_index = 10000000;
 
 std::vector<FrameColumn> columns_of_a_frame() {
@@ -33,7 +33,7 @@ std::vector<FrameColumn> columns_of_a_frame() {
   return columns;
 }
 
-// the kind goes with a value, for whoever does not know its column
+// the kind is written before each value, so that readers can skip columns that they do not know
 std::uint8_t kind_of(int) { return 0; }
 std::uint8_t kind_of(double) { return 1; }
 std::uint8_t kind_of(const std::string&) { return 2; }
@@ -44,7 +44,7 @@ void skip(ByteReader& in, std::uint8_t kind) {
   if (kind == kind_of(std::string())) in.text();
 }
 
-/// Where a payload lies.
+/// Position and size of a payload in the file.
 struct Place {
   std::uint64_t at = 0, size = 0;
 };
@@ -56,7 +56,7 @@ struct Record {
   std::uint64_t next = 0;
 };
 
-/// The record at `at`, if it is whole.
+/// The record at byte `at`; empty if it is incomplete or damaged.
 std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at, ChecksumKind summed) {
   const auto start = file.read(at, before_payload);
   if (!start) return std::nullopt;
@@ -84,9 +84,9 @@ struct OpenJournal {
   ReadableFile file;
   JournalHead head;
   ChecksumKind summed;
-  std::uint64_t begin;  ///< of the records of frames
+  std::uint64_t begin;  ///< byte at which the records of frames start
 
-  /// take(index, record) for every whole record of a frame; of one index the last counts.
+  /// Calls take(index, record) for every complete record of a frame, in the order of the file.
   void each_frame(const std::function<void(int, const Record&)>& take) const {
     for (auto record = record_at(file, begin, summed); record;
          record = record_at(file, record->next, summed))
@@ -113,12 +113,12 @@ class JournalFrames : public FrameSource {
  public:
   explicit JournalFrames(OpenJournal journal) : journal_(std::move(journal)) {}
 
-  /// The first frame that fits the layout decides how many nodes there are; those that do not fit
-  /// it are left out.
+  /// Finds the frames that fit the layout. The one with the lowest index decides the number of
+  /// nodes; frames with another number are left out.
   void find_those_of(const Layout& layout) {
     struct Found {
       Place place;
-      Eigen::Index nodes;  // -1: it fits none
+      Eigen::Index nodes;  // number of nodes; -1: the frame does not fit the layout
       Frame head;
     };
     std::map<int, Found> found;
@@ -212,7 +212,7 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
   }
   int matrices = 0;
   visit_matrices(frame, [&](auto& values) {
-    // where older versions ended
+    // older versions wrote fewer arrays
     const bool may_end = matrices == 3 || matrices >= 6;
     if (may_end && in.at_end()) return;
     ++matrices;
@@ -224,7 +224,7 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
 
 Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunIdentity& name,
                                             const Layout& layout) {
-  // under its name once its head is whole: whoever kills the run before then leaves no journal
+  // the file gets its name when its head is complete: a run killed before leaves no journal
   AtomicFile file(path);
   JournalWriter journal;
   journal.path_ = path;

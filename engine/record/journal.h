@@ -1,11 +1,11 @@
-// frames.journal: the frames of a run that is not finished, each on the disk as soon as it is
+// frames.journal: the frames of an unfinished run. Each frame is on the disk as soon as it is
 // found.
 //
-// A line that names the file, then records: kind (4 bytes), length (8), payload, checksum (8) of
-// all of these. The first record is the head (preset, names of the columns, layout), every other
-// one per frame, in the order in which they were found; of two with one index the later counts. A
-// run that is killed leaves a journal that reads up to its last whole record. Numbers are those of
-// the machine.
+// The file has a first line that names the format, then records: kind (4 bytes), length (8),
+// payload, checksum (8) of all of these. The first record is the head (preset, names of the
+// columns, layout); every other record is a frame, in the order in which frames were found. Of two
+// frames with the same index the later one counts. The journal of a killed run can be read up to
+// its last complete record. Numbers have the byte order of the machine.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,19 @@
 
 namespace gridshell::record {
 
-/// The journal of a run's folder; and of the coarser meshes before, while the finer ones have found
-/// fewer frames.
+/// Names of the journal in a run's folder, and of the journal of the coarser mesh before, which
+/// remains until the finer mesh has as many frames.
 inline constexpr const char *journal_name = "frames.journal",
                             *coarser_journal_name = "frames.coarser.journal";
 
-/// Whose frames they are.
+/// The run that frames belong to.
 struct RunIdentity {
-  std::string preset;
+  std::string preset;  ///< name of the preset
   Kind kind = Kind::unknown;
-  std::string title = {};  ///< goes to the run's files; a journal does not keep it
+  std::string title = {};  ///< written to the run's files, not to a journal
 };
 
-/// A journal as it grows. Every record goes to the system at once.
+/// Writes a journal. Every record is passed to the operating system at once.
 class JournalWriter {
  public:
   /// Creates a journal, replacing an older one. Errors: io with path and reason.
@@ -46,7 +46,7 @@ class JournalWriter {
   /// Appends a frame. Errors: io with path and reason; a partial write is removed.
   Result<void> append(const Frame& frame);
 
-  /// number of different frames in it
+  /// Number of frames with different indices.
   std::size_t frames() const { return indices_.size(); }
 
  private:
@@ -64,37 +64,41 @@ struct Journal {
   Trajectory trajectory;
 };
 
-/// Opens a journal. Errors: io when it cannot be read; bad_input when it is none, or its head is
-/// damaged. What follows a damaged record is left out.
+/// Opens a journal. Frames after a damaged record are left out. `trial`: whether the layout is
+/// first read in a process of its own, so that a damaged file cannot end this one. Errors: io if
+/// the file cannot be read; bad_input if it is no journal or its head is damaged.
 Result<Journal> read_journal(const std::filesystem::path& path, bool trial = true);
 
-/// The journal of a run's folder with the most frames. Errors: as above.
+/// Opens the journal of a run's folder with the most frames. Errors: those of read_journal().
 Result<Journal> read_journal_of(const std::filesystem::path& folder);
 
-/// The name of the preset in a folder's journal; empty without a journal with a complete head.
+/// The name of the preset in a folder's journal; empty if there is no journal with a complete head.
 std::optional<std::string> preset_of_journal(const std::filesystem::path& folder);
 
-/// Number of frames in a journal; 0 if it is none. Nothing in the file is trusted.
+/// Number of frames in a journal; 0 if the file is no journal. The file may be damaged.
 std::size_t frames_in_journal(const std::filesystem::path& file);
 /// Number of frames in the longer of a folder's journals.
 std::size_t frames_in_journals(const std::filesystem::path& folder);
 
 // Records of a journal: the head, then frames, packed.
 
-/// Whose frames they are, the names of their columns, and the layout as layout_of_image() reads it.
+/// The head of a journal: the run, the names of the frames' columns, and the layout as bytes for
+/// layout_of_image().
 struct JournalHead {
   RunIdentity name;
   std::vector<std::string> columns;
   std::string layout;
 };
 
+/// The payload of the head.
 std::string packed_head(const RunIdentity& name, const Layout& layout);
-/// Nothing where it is damaged.
+/// The head in a payload; empty if it is damaged.
 std::optional<JournalHead> unpacked_head(std::string_view bytes);
 
-/// The index comes first.
+/// The payload of a frame, which starts with its index.
 std::string packed_frame(const Frame& frame);
-/// A frame whose columns are named so; those without a name here are left out. Errors: bad_input.
+/// The frame in a payload. `columns` are the names in the head; columns that this version does not
+/// know are skipped. Errors: bad_input.
 Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::string>& columns);
 
 }  // namespace gridshell::record

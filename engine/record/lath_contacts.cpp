@@ -1,4 +1,4 @@
-// Laths whose sections keep to their joints' normals touch as rectangles.
+// Contacts of laths: rectangular sections that follow the normals of their joints.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ Eigen::Vector3d ShapeContacts::normal_of(const ContactSearch::Axis& at) const {
       .stableNormalized();
 }
 
-/// How the sections of a segment lie: normals linear between those of its joints, to one side.
+/// Computes the axes of a segment's sections: normals are linear between those of its two joints.
 void ShapeContacts::lay_sections(const Segment& s) {
   const auto of = [&](int joint) {
     return joint < 0 ? Vector3d(0, 0, 0) : normal_of(of_.axes_[std::size_t(joint)]);
@@ -31,7 +31,7 @@ void ShapeContacts::lay_sections(const Segment& s) {
   }
 }
 
-/// How far a rod reaches from its axis across the normal.
+/// Half the extent of a rod across the normal: half the width of a lath, else the radius.
 double ShapeContacts::beside(int rod) const {
   const bool lath = !of_.half_mm_.empty() && of_.half_mm_[std::size_t(rod)][0] > 0;
   return lath ? of_.half_mm_[std::size_t(rod)][0] : of_.radius_mm_[std::size_t(rod)];

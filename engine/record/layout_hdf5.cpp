@@ -52,7 +52,7 @@ void put(hdf5::Writer& file, const std::string& name, const std::vector<std::str
 void put(hdf5::Writer& file, const std::string& name, const hdf5::Lists& lists, const char*) {
   file.lists(name, lists);
 }
-// a 3 x n matrix by columns lies in memory as n x 3 by rows
+// in memory a 3 x n matrix stored by columns is equal to an n x 3 matrix stored by rows
 void put(hdf5::Writer& file, const std::string& name, const Eigen::Matrix3Xd& points,
          const char* unit) {
   file.dataset(name, H5T_NATIVE_DOUBLE, {hsize_t(points.cols()), 3}, points.data(), unit);
@@ -78,7 +78,7 @@ void take(hdf5::Reader& file, const std::string& name, Eigen::Matrix3Xd& points)
 
 enum Presence { always, where_known };
 
-/// visit(name, member, unit, presence) for all that is one dataset.
+/// Calls visit(name, member, unit, presence) for every member that is stored as one dataset.
 template <RecordOf<Layout> LayoutType, class Visit>
 void each_dataset(LayoutType& layout, const Visit& visit) {
   visit("/layout/diameters", layout.diameters_mm, "mm", where_known);
@@ -99,20 +99,21 @@ void each_dataset(LayoutType& layout, const Visit& visit) {
   visit("/layout/flat_nodes", layout.flat_nodes, "mm", always);
 }
 
+/// Calls visit(name, member) for the members that are stored as attributes.
 template <RecordOf<Layout> LayoutType, class Visit>
 void each_attribute(LayoutType& layout, const Visit& visit) {
   visit_each(visit, "spacing_mm", layout.spacing_mm, "rod_diameter_mm", layout.rod_diameter_mm,
              "length_scale_mm", layout.length_scale_mm);
 }
 
-/// What contacts are looked for with, which older versions did not know.
+/// Attributes for the search for contacts, which older versions did not write.
 template <RecordOf<Layout> LayoutType, class Visit>
 void each_contact_attribute(LayoutType& layout, const Visit& visit) {
   visit_each(visit, "joint_diameter_mm", layout.joint_diameter_mm, "joint_height_mm",
              layout.joint_height_mm, "table_mm", layout.table_mm);
 }
 
-/// A building block in its group.
+/// The datasets of a building block in its group.
 template <RecordOf<Part> PartType, class Visit>
 void each_dataset(PartType& part, const Visit& visit) {
   visit("/rods", part.rods, "1");
@@ -182,7 +183,7 @@ void read_loads(hdf5::Reader& file, Layout& layout) {
   Eigen::Matrix3Xd directions;
   take(file, "/layout/load_joints", joints);
   take(file, "/layout/load_directions", directions);
-  std::vector<int> at_times(joints.size(), 0);  // as older versions wrote
+  std::vector<int> at_times(joints.size(), 0);  // older versions did not write it
   if (file.has("/layout/load_at_times")) take(file, "/layout/load_at_times", at_times);
   if (file.good() && directions.cols() != long(joints.size()))
     file.fail_because("/layout has not one direction a joint that is pushed");

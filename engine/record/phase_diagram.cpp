@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "engine/core/text.h"
+
 namespace gridshell::record {
 namespace {
 
-constexpr const char* first_order = "first_order";  // the kind of states of first-mode buckling
+constexpr const char* first_order = "first_order";  // name of first-mode buckling in figures
 
 void add(StateCount& count, const StateRow& row) {
   ++count.states;
@@ -21,8 +23,6 @@ void put(Figures& figures, const std::string& kind, const StateCount& count) {
 }
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr const char* leg_key = "footprint.longest_leg";
-constexpr const char* rods_key = "footprint.rods";
 
 /// A figure as an integer; 0 if there is none.
 int whole_figure(const PointResult& result, const char* name) {
@@ -33,8 +33,8 @@ int whole_figure(const PointResult& result, const char* name) {
 
 PhasePoint point_of(const SweepTable::Row& row, bool legs_first) {
   PhasePoint point;
-  point.longest_leg = std::stod(row.keys.values[legs_first ? 0 : 1]);
-  point.rods = std::stoi(row.keys.values[legs_first ? 1 : 0]);
+  point.longest_leg = parse_number<double>(row.keys.values[legs_first ? 0 : 1]).value_or(unknown);
+  point.rods = parse_number<int>(row.keys.values[legs_first ? 1 : 0]).value_or(0);
   point.shortest_leg = shortest_leg(point.longest_leg + 0.5 * (point.rods - 1), point.rods);
   point.seed = row.keys.seed;
   const auto first_mode = state_count(row.result, first_order);

@@ -1,6 +1,7 @@
 #include "engine/record/run_folder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
@@ -49,8 +50,8 @@ std::string seams_csv(const Layout& layout) {
   return std::move(csv).text();
 }
 
-/// A count that is not known (below zero) is empty. Text has no comma, so that a reader that knows
-/// no quotes counts the columns right.
+/// Writes a cell. A count below zero is not known and gives an empty cell. Commas of a text become
+/// semicolons, so that readers that do not know quotes find the right columns.
 void put(CsvWriter& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
 void put(CsvWriter& csv, double value) { csv.cell(value); }
 void put(CsvWriter& csv, std::string text) {
@@ -64,10 +65,12 @@ std::string bins_csv(const Trajectory& trajectory) {
   for (std::size_t f = 0; f < trajectory.frames.size(); ++f) {
     const Frame& frame = trajectory.frames.head(f);
     const Eigen::Index bins = frame.K_bins.rows();
+    // a frame whose bins are not known has no row
     for (Eigen::Index k = 0; k < bins; ++k)
-      csv.line(frame.index, -1 + 2.0 * double(k) / double(bins),
-               -1 + 2.0 * double(k + 1) / double(bins), frame.K_bins(k, 0), frame.K_bins(k, 1),
-               int(frame.K_bins(k, 2)));
+      if (const double cells = frame.K_bins(k, 2); !std::isnan(cells))
+        csv.line(frame.index, -1 + 2.0 * double(k) / double(bins),
+                 -1 + 2.0 * double(k + 1) / double(bins), frame.K_bins(k, 0), frame.K_bins(k, 1),
+                 int(cells));
   }
   return std::move(csv).text();
 }
@@ -134,7 +137,7 @@ Result<void> FolderSink::take(Frame frame) {
 
 Result<Trajectory> FolderSink::finish(const Summary& summary) {
   journal_.reset();
-  // what this program has just written needs no trial
+  // this program has just written the journal, so it is read without a trial in another process
   TRY(journal, read_journal(folder_ / journal_name, false));
   journal->trajectory.origin = {name_.title, name_.preset, std::string("gridshell ") + version()};
   TRY_DO(write_run(folder_, journal->trajectory, summary));

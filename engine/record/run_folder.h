@@ -1,4 +1,4 @@
-// A run's folder: summary.json, joints.csv, cells.csv, frames.csv, bins.csv, trajectory.h5 and, of
+// A run's folder: summary.json, joints.csv, cells.csv, frames.csv, bins.csv, trajectory.h5 and, for
 // building blocks, seams.csv.
 #pragma once
 
@@ -14,19 +14,19 @@
 namespace gridshell::record {
 
 /// The text of joints.csv: position of every joint in the last frame, and its distance from its
-/// position on the net, if there is one. Numbers are the shortest that read back bit for bit;
-/// unknown ones are empty (all CSV files).
+/// position on the net, if there is one. In all CSV files numbers have the fewest digits that read
+/// back bit for bit, and unknown ones are empty.
 std::string joints_csv(const Trajectory& trajectory);
 
 /// The text of cells.csv: K of every complete cell in the last frame, at its middle (u, v) of the
 /// footprint and the centroid of its four joints.
 std::string cells_csv(const Trajectory& trajectory);
 
-/// The text of frames.csv: a line a frame.
+/// The text of frames.csv: one line per frame.
 std::string frames_csv(const Trajectory& trajectory);
-/// The text of bins.csv: K of the cells in bins of x/L, a line a bin and frame.
+/// The text of bins.csv: K of the cells in bins of x/L, one line per frame and bin.
 std::string bins_csv(const Trajectory& trajectory);
-/// A rod across the seam of two building blocks a line, with gap and kink.
+/// The text of seams.csv: one line per rod across a seam of two building blocks, with gap and kink.
 std::string seams_csv(const Layout& layout);
 
 /// Writes these files into `folder`, which is created if missing; seams.csv only if there are
@@ -36,11 +36,9 @@ std::string seams_csv(const Layout& layout);
 Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
                        const Summary& summary);
 
-// A run's folder as it fills: every frame is on the disk as soon as it is found.
-
-/// Writes frames to the journal of `folder`; none stays in memory. When a finer mesh starts, the
-/// coarser journal is retained until the new one has as many frames; so is the journal of an
-/// interrupted run.
+/// Writes frames to the journal of `folder` as soon as they are found; none stays in memory. When a
+/// finer mesh starts, the coarser journal is retained until the new one has as many frames; so is
+/// the journal of an interrupted run.
 class FolderSink final : public Sink {
  public:
   FolderSink(std::filesystem::path folder, RunIdentity name)
@@ -49,8 +47,8 @@ class FolderSink final : public Sink {
   Result<void> begin(Layout layout) override;
   Result<void> take(Frame frame) override;
 
-  /// Converts the journal into a run's files (run_folder.h) and removes it. The trajectory reads
-  /// its frames from the disk on demand. Errors: io, bad_input.
+  /// Converts the journal into a run's files (write_run()) and removes it. The trajectory reads its
+  /// frames from the disk on demand. Errors: io, bad_input.
   Result<Trajectory> finish(const Summary& summary);
 
  private:

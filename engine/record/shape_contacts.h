@@ -1,4 +1,4 @@
-// Contacts in one shape of a layout: what a search for them keeps of it.
+// The search for contacts in one shape of a layout (contacts.h has the definitions).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 
 namespace gridshell::record {
 
-/// One shape of the layout of a search.
+/// Finds the contacts in one shape. Indices of points are those of ContactSearch::points_.
 class ShapeContacts {
  public:
   ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes);
@@ -24,8 +24,8 @@ class ShapeContacts {
   static constexpr int no_tree = std::numeric_limits<int>::min();
   using Box = Eigen::AlignedBox3d;
   using Segment = ContactSearch::Segment;
-  /// Points of two segments within a given distance along the rods of a common joint are not
-  /// compared.
+  /// A common joint of two segments, at position at_a along one rod and at_b along the other. Two
+  /// points that are both at most `within` away from it along their rods are not compared.
   struct Joint {
     double at_a = 0, at_b = 0, within = 0;
   };
@@ -33,19 +33,21 @@ class ShapeContacts {
   struct Chord {
     Vector3d along{0, 0, 0};  ///< unit vector
     double cosine = 1, sine = 0;
-    int node[2] = {-1, -1};  ///< at begin and end
+    int node[2] = {-1, -1};  ///< nodes at its start and end
   };
-  /// What is looked for between two segments.
+  /// The search for the smallest gap between two segments.
   struct Search {
-    int a = 0, b = 0;
-    double radii = 0;         ///< sum
-    double gap = 0;           ///< above is not looked for
-    double apart = 0;         ///< for one rod: least distance of compared points along it
-    double round = infinity;  ///< length of a rod that is a ring
-    int joints = 0;
+    int a = 0, b = 0;         ///< the segments
+    double radii = 0;         ///< sum of the two radii
+    double gap = 0;           ///< smallest gap so far; larger gaps are ignored
+    double apart = 0;         ///< least distance along the rod of compared points of one rod
+    double round = infinity;  ///< length of the rod if it is a ring
+    int joints = 0;           ///< number of common joints
     Joint joint[2];
     Contact found;
-    bool any = false;
+    bool any = false;  ///< whether a gap was found
+
+    /// Whether points at these positions along their rods are compared.
 
     bool reported(double at_a, double at_b) const {
       const double distance = std::abs(at_b - at_a);
@@ -58,6 +60,7 @@ class ShapeContacts {
     }
   };
 
+  /// Node of a point; all rods of a joint have the same.
   int node(int point) const { return of_.places_[point]; }
   const Segment& segment(int k) const { return of_.segments_[k]; }
   double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
@@ -87,13 +90,13 @@ class ShapeContacts {
   void table();
 
   const ContactSearch& of_;
-  std::vector<Vector3d> x_;              // of the points
-  std::vector<double> along_;            // the rods
-  std::vector<Vector3d> normal_, side_;  // of the edges' sections, of laths
-  std::vector<Box> edge_;     // of segments with a tree, one after another, by its first point
-  std::vector<Box> tree_;     // of edges begin to end - 1, at the point in the middle
-  std::vector<int> tree_at_;  // what is added to a segment's points for it; no_tree
-  std::vector<Box> box_;      // of the segments
+  std::vector<Vector3d> x_;              // position of each point
+  std::vector<double> along_;            // position of each point along its rod
+  std::vector<Vector3d> normal_, side_;  // axes of the section of each edge, if there are laths
+  std::vector<Box> edge_;                // boxes of the edges of segments with a tree
+  std::vector<Box> tree_;     // boxes of edges begin to end - 1, stored at the middle point
+  std::vector<int> tree_at_;  // offset of a segment's points in edge_ and tree_; or no_tree
+  std::vector<Box> box_;      // box of each segment
   std::vector<Chord> chord_;
   const Eigen::Matrix3Xd& nodes_;
   Contacts all_;

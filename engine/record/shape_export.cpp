@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/core/dense.h"
+#include "engine/core/text.h"
 #include "engine/formats/csv.h"
 #include "engine/record/frame_values.h"
 
@@ -88,6 +89,13 @@ constexpr int tube_sides = 8;
 
 std::back_insert_iterator<std::string> into(std::string& text) { return std::back_inserter(text); }
 
+/// The first lines of an OBJ file; a title of several lines becomes one.
+std::string head_of_obj(std::string title) {
+  std::ranges::replace_if(
+      title, [](char c) { return (unsigned char)c < 0x20; }, ' ');
+  return "# " + title + ", mm, z up\no gridshell\n";
+}
+
 void put_faces_of_cells(const record::Layout& layout, long first, std::string& text) {
   if (layout.cells.empty()) return;
   text += "g cells\n";
@@ -100,7 +108,7 @@ void put_vertex(const Eigen::Vector3d& at, std::string& text) {
   fmt::format_to(into(text), "v {:.9f} {:.9f} {:.9f}\n", at.x(), at.y(), at.z());
 }
 
-/// A <DataArray>: numbers, or vectors.
+/// Appends a <DataArray> of numbers or vectors.
 void put_array(std::string& text, const char* type, const char* name, int components,
                const std::string& values) {
   fmt::format_to(into(text),
@@ -121,7 +129,7 @@ void put_array(std::string& text, const char* name, const Eigen::Matrix3Xd& valu
   put_array(text, "Float64", name, 3, vectors);
 }
 
-/// Values at the points of rods; the cells' corners have none.
+/// Values at all points of a VTK file: those of the rods, then NaN for the cells' corners.
 std::vector<double> along_rods(const Shape& shape, auto values_of) {
   std::vector<double> all;
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
@@ -132,7 +140,8 @@ std::vector<double> along_rods(const Shape& shape, auto values_of) {
   return all;
 }
 
-/// One frame of a dataset of trajectory.h5 with all of its `values`, of `components` each (0: one).
+/// The XDMF item for one frame of a dataset of trajectory.h5: `values` entries of `components`
+/// numbers each; 0: of one number, in a dataset with two dimensions.
 std::string hyperslab(const std::string& dataset, long index, std::size_t frames, long values,
                       long components) {
   const auto dims = [&](long first) {
@@ -149,7 +158,7 @@ std::string hyperslab(const std::string& dataset, long index, std::size_t frames
       dims(long(frames)), dataset);
 }
 
-/// A topology that the file has once; later frames refer to the first one's.
+/// The XDMF topology of a frame: written for the first frame, to which the others refer.
 std::string topology(const std::string& grid, long index, const char* type, int nodes,
                      long elements, const std::string& numbers) {
   if (index > 0)
@@ -164,10 +173,10 @@ std::string topology(const std::string& grid, long index, const char* type, int 
 }  // namespace
 
 std::string to_obj(const Shape& shape) {
-  std::string text = "# " + shape.title + ", mm, z up\no gridshell\n";
+  std::string text = head_of_obj(shape.title);
   for (Eigen::Index k = 0; k < shape.frame.nodes.cols(); ++k)
     put_vertex(shape.frame.nodes.col(k), text);
-  // joints once more, in their order: faces name them
+  // joints again, in their order: points and faces refer to these
   for (const int node : nodes_of_joints(shape.layout))
     put_vertex(shape.frame.nodes.col(node), text);
   text += "g rods\n";
@@ -185,7 +194,7 @@ std::string to_obj(const Shape& shape) {
 }
 
 std::string to_obj_tubes(const Shape& shape) {
-  std::string text = "# " + shape.title + ", mm, z up\no gridshell\n";
+  std::string text = head_of_obj(shape.title);
   long first = 1;
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
     const Tube tube = tube_around(rod_points(shape.layout, shape.frame, rod),
@@ -284,7 +293,8 @@ std::string to_pvd(const std::vector<double>& progress, const std::vector<std::s
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (std::size_t k = 0; k < files.size(); ++k)
-    fmt::format_to(into(text), "<DataSet timestep=\"{}\" file=\"{}\"/>\n", progress[k], files[k]);
+    fmt::format_to(into(text), "<DataSet timestep=\"{}\" file=\"{}\"/>\n", progress[k],
+                   escape_xml(files[k]));
   return text + "</Collection>\n</VTKFile>\n";
 }
 
@@ -305,7 +315,8 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const long index = long(k);
     const auto of = [&](const char* name, long values, long components) {
-      return hyperslab(trajectory + ":" + name, index, frames.size(), values, components);
+      return hyperslab(escape_xml(trajectory) + ":" + name, index, frames.size(), values,
+                       components);
     };
     const std::string places =
         "<Geometry GeometryType=\"XYZ\">\n" + of("/nodes", nodes, 3) + "</Geometry>\n";

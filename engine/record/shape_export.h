@@ -1,4 +1,5 @@
-// One frame of a run as other programs see it: rods as lines or tubes, cells as quadrilaterals.
+// Exports of a run for other programs: one frame as lines, tubes and quadrilaterals, or all frames
+// as a glTF model or an HTML page.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +13,11 @@
 
 namespace gridshell::exports {
 
-/// What is written; what it refers to must outlive it.
+/// The frame that is exported. The objects that it refers to must outlive it.
 struct Shape {
   const record::Layout& layout;
   const record::Frame& frame;
-  const record::Frame& start;  ///< what displacements are from: the first frame of the run
+  const record::Frame& start;  ///< first frame of the run: displacements are relative to it
   std::string title;
 };
 
@@ -27,27 +28,29 @@ Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& f
 /// The node of each joint.
 std::vector<int> nodes_of_joints(const record::Layout& layout);
 
-/// Reaction at each node of the frame, N: 0 without a constraint, NaN if the run did not record it.
+/// Reaction at each node of the frame, 3 x nodes, N: 0 without a constraint, NaN if the run did not
+/// record reactions.
 Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame);
 
 /// Four corners of a cell, joints in order, 3 x 4, mm.
 Eigen::Matrix<double, 3, 4> cell_corners(const record::Layout& layout, const record::Frame& frame,
                                          std::size_t cell);
 
-/// A rod as a tube: `sides` vertices around each point, ends closed.
+/// A rod as a closed tube: `sides` vertices around each point, and one in the middle of each end.
 struct Tube {
   Eigen::Matrix3Xd vertices, normals;
   std::vector<std::array<int, 3>> triangles;  ///< anticlockwise from outside
 };
 
-/// The directions around it are carried along without twist. The same number of points gives the
-/// same triangles.
+/// A tube around `points` (3 x n, n >= 2). The directions of its vertices are transported along it
+/// without twist. The triangles depend only on the numbers of points and sides.
 Tube tube_around(const Eigen::Matrix3Xd& points, double radius_mm, int sides);
 
 // Shapes as text for other programs: Rhino and Blender (.obj, .dxf), ParaView (.vtp, .pvd, .xdmf),
 // spreadsheets (.csv). Millimetres, z up.
 
-/// Wavefront: a line element a rod (group `rods`), a point a joint, a face a cell (group `cells`).
+/// Wavefront OBJ: a line per rod (group `rods`), a point per joint (`joints`), a face per cell
+/// (`cells`).
 std::string to_obj(const Shape& shape);
 /// OBJ text with rods as tubes of their diameter (8 sides), and without joints.
 std::string to_obj_tubes(const Shape& shape);
@@ -57,25 +60,26 @@ Drawing rods_in_space(const Shape& shape);
 
 /// VTK PolyData in ASCII: a polyline per rod with separate points, a polygon per cell. Point data:
 /// `displacement_mm`, `curvature_per_mm`, `axial_force_N` (mean of the adjacent edges),
-/// `stress_MPa`, `reaction_N` (a joint's at the cells' corner alone); cell data: `rod` (-1 for a
-/// cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
+/// `stress_MPa`, `reaction_N` (a joint's reaction only at the cells' corner, not on its rods); cell
+/// data: `rod` (-1 for a cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
 std::string to_vtp(const Shape& shape);
 /// ParaView's list of such files over progress.
 std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
 
-/// XDMF of all frames of `trajectory.h5`: edges over /nodes at each progress with `axial_force_N`,
-/// and the supports with `reaction_N`. For ParaView's `XDMF
-/// Reader`; its Xdmf3 readers know no HyperSlab.
+/// XDMF of all frames of `trajectory.h5`, over progress: edges with `axial_force_N`, and the
+/// supports with `reaction_N`; the numbers are read from `trajectory`. For ParaView's `XDMF
+/// Reader`; its Xdmf3 readers do not support HyperSlab.
 std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
                     const std::string& trajectory);
 
-/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm,axial_force_N,stress_MPa,reaction_x_N,
-/// reaction_y_N,reaction_z_N`, rod by rod; forces empty where the run did not record them.
+/// A table with one row per point of each rod, rod by rod, with the columns
+/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm,axial_force_N,stress_MPa,reaction_x_N,reaction_y_N,
+/// reaction_z_N`; forces are empty if the run did not record them.
 std::string to_csv(const Shape& shape);
 
-// Colours of K for what other programs show: blue below zero, white at it, red above.
+// Colours of K in exports: blue below zero, white at zero, red above.
 
-/// Symmetric about zero; 98 of 100 cells lie within.
+/// The range of K from -end to end over which colours change.
 struct ColourRange {
   double end = 1;  ///< rad
 
@@ -83,36 +87,39 @@ struct ColourRange {
   static constexpr Colour below{0.13, 0.40, 0.67}, zero{0.97, 0.97, 0.97}, above{0.70, 0.09, 0.17},
       unknown{0.7, 0.7, 0.7};
 
-  /// From `zero` to `below` or `above`.
+  /// Colour of a value of K: linear from `zero` to `below` or `above`; `unknown` for NaN.
   std::array<double, 3> colour(double K) const;
 };
 
+/// The range that contains |K| of 98 % of the cells.
 ColourRange range_of(const Eigen::VectorXd& K);
 
-/// From sRGB to linear light.
+/// Converts a colour from sRGB to linear light.
 std::array<double, 3> linear(const std::array<double, 3>& srgb);
 
-/// Evenly spaced frames that represent a run, the first and the last among them.
+/// Indices of `shown` evenly spaced frames of a run, with the first and the last; of one frame the
+/// last.
 std::vector<std::size_t> even_frames(std::size_t frames, std::size_t shown);
 
 // A run as one binary glTF 2.0 file (.glb), which Blender, browsers and slides play.
 
-/// Rods as tubes and cells in the colour of their last K, both as morph targets of up to 60 key
-/// shapes, joints as spheres that move; an animation `run` of `seconds`. In metres, y up, as the
-/// format wants it. Runs whose key shapes would take more than 20 MB have fewer sides and fewer of
-/// them. Errors: bad_input for what takes more than that in one shape; what the frames say.
+/// The bytes of a .glb file: rods as tubes and cells in the colour of their last K, both as morph
+/// targets of up to 60 key shapes; joints as spheres that move; an animation `run` of `seconds`. In
+/// metres with y up, as the format requires. If the key shapes would take more than 20 MB, the
+/// tubes have fewer sides, and then there are fewer shapes. The run must have a frame. Errors:
+/// bad_input if one shape takes more than 20 MB; those of reading a frame.
 Result<std::string> to_glb(const record::Trajectory& run, const std::string& title, double seconds);
 
 // A run as one HTML page that shows it in 3D in any browser, without a network.
 
-/// The page: turned with the mouse or a finger, scrubbed through the frames, cells coloured by K
-/// with its legend, and what certifies each frame in figures. Positions are rounded to 1/65535 of
-/// the shell's size, frames are left out evenly where it would pass 10 MB. Errors: what the frames
-/// say; bad_input where one frame alone is larger.
+/// The text of the page. It can be turned with the mouse or a finger and played; cells are coloured
+/// by K with a legend, and the certificate of each frame (residual, error, pivots) is shown.
+/// Positions are rounded to 1/65535 of the shell's size. If the page would be larger than about
+/// 10 MB, frames are left out evenly. The run must have a frame. Errors: bad_input if one frame
+/// alone is larger; those of reading a frame.
 Result<std::string> to_page(const record::Trajectory& run, const std::string& title);
 
-// Template page.html, in which "/*RUN*/" is replaced by the run.
-
+/// The text of page.html, in which "/*RUN*/" is replaced by the run.
 extern const char* const page_template;
 
 }  // namespace gridshell::exports

@@ -9,7 +9,7 @@ namespace gridshell {
 
 NetDeviation::NetDeviation(const Eigen::Matrix3Xd& joints, const Eigen::Matrix3Xd& net, double rho)
     : of_joints_((joints - net).colwise().norm().transpose() / rho), sorted_(of_joints_) {
-  // a NaN goes last, so that the largest shows it
+  // NaN is sorted last, so that largest() returns it
   std::ranges::sort(sorted_,
                     [](double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; });
 }
@@ -26,7 +26,7 @@ double NetDeviation::quantile(double q) const {
   const auto below = static_cast<Eigen::Index>(at);
   const auto above = std::min(below + 1, sorted_.size() - 1);
   const double part = at - static_cast<double>(below);
-  // no product with a NaN that does not count
+  // without this, 0 times a NaN would be NaN
   return part == 0 ? sorted_[below] : (1 - part) * sorted_[below] + part * sorted_[above];
 }
 
@@ -47,7 +47,7 @@ PushReach push_reach(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now
 
 namespace {
 
-constexpr double counts = 0.05;  // of a rod's largest curvature
+constexpr double counts = 0.05;  // smaller curvatures, over the rod's largest, are ignored
 
 /// Curvature vectors at the inner nodes of a rod: the change of the unit tangent over the length.
 Eigen::Matrix3Xd curvatures(const std::vector<int>& rod, const Eigen::Matrix3Xd& x) {
@@ -78,8 +78,8 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Direction of a rod in neither family: u at its joint if it is the first there, else v, oriented
-/// to the left of u.
+/// Sets the tangent of a rod of a network at a joint: as u if it is the first rod there, else as v,
+/// oriented to the left of u.
 void put_other(const Eigen::Vector3d& along, const Eigen::Vector2d& flat, int joint,
                Eigen::Vector2d& first, JointTangents& tangents) {
   if (tangents.u.col(joint).isZero(0)) {
@@ -92,10 +92,12 @@ void put_other(const Eigen::Vector3d& along, const Eigen::Vector2d& flat, int jo
     tangents.v.col(joint) = left > 0 ? along : Eigen::Vector3d(-along);
 }
 
-/// What one map does; of the sixteen maps, equal ones are counted together.
+/// Numbers of elements of each kind in a group.
 struct Counts {
-  int half = 0, quarter = 0, axis = 0, diagonal = 0;  // turns about z, vertical mirrors
-  int level = 0, inversion = 0, improper = 0, level_axis = 0, level_diagonal = 0;  // z turned over
+  int half = 0, quarter = 0, axis = 0, diagonal = 0;  // turns about z; vertical mirrors
+  // elements that invert z: horizontal mirror, inversion, turn by 90 degrees with inversion of z,
+  // half turns about horizontal axes
+  int level = 0, inversion = 0, improper = 0, level_axis = 0, level_diagonal = 0;
 };
 
 Counts counted(const SymmetryGroup& group) {
@@ -144,7 +146,7 @@ SymmetryGroup generated(const SymmetryGroup& generators) {
   return {group.begin(), group.end()};
 }
 
-/// About its own middle in the plane.
+/// The points relative to their middle in the plane.
 template <class Points>
 Points centred(Points points) {
   const Eigen::Vector2d middle = points.template topRows<2>().rowwise().mean();
@@ -168,8 +170,8 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
                              const Eigen::Matrix3Xd& x) {
   JointTangents tangents{Eigen::Matrix3Xd::Zero(3, mesh.joints),
                          Eigen::Matrix3Xd::Zero(3, mesh.joints)};
-  std::vector<Eigen::Vector2d>
-      first;  // of joints of a network: direction of its first rod in the flat grid
+  // Direction in the flat of the first rod at each joint of a network.
+  std::vector<Eigen::Vector2d> first;
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const Family family = footprint.rods[r].family;
@@ -196,7 +198,7 @@ Eigen::VectorXd cell_curvature(const Footprint& footprint, const JointTangents& 
   Eigen::VectorXd K(Eigen::Index(footprint.cells.size()));
   for (std::size_t k = 0; k < footprint.cells.size(); ++k) {
     const auto& joint = footprint.cells[k].joints;
-    // interior angles: at the four corners the cell lies towards (+u,+v), (-u,+v), (-u,-v), (+u,-v)
+    // at its four corners the cell extends towards (+u,+v), (-u,+v), (-u,-v), (+u,-v)
     double sum = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const double side_u = corner == 0 || corner == 3 ? 1 : -1;
@@ -274,7 +276,7 @@ SharedSymmetry::SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix
   const Eigen::Matrix3Xd joints = centred(shape);
   const double same = 1e-6 * std::sqrt(points.colwise().squaredNorm().maxCoeff());
   for (const Eigen::Matrix3d& map : square_symmetries()) {
-    if (map(2, 2) < 0) continue;  // it turns the shape over
+    if (map(2, 2) < 0) continue;  // only maps that do not invert z
     const Eigen::Matrix2d turn = map.topLeftCorner<2, 2>();
     auto image = images_of(points, turn, same);
     if (!image) continue;

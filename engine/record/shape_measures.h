@@ -1,5 +1,5 @@
-// What is measured on a shape: integrated Gauss curvature of the cells from the rods' crossing
-// angles [Baek 2018, eq. 2], and how far it lies from the net it was designed on.
+// Measures of a shape: integrated Gauss curvature of the cells from the rods' crossing angles [Baek
+// 2018, eq. 2], deviation from the Chebyshev net, reach of a push, inflections, symmetries.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,12 @@
 
 namespace gridshell {
 
-/// Unit tangents of the two rods at every joint: along +u of its u-rod, along +v of its v-rod (3 x
-/// joints); where rods are of no grid of the first two that cross there, u x v upwards in the flat,
-/// and zero where there are not two. t is proportional to t1 l2 + t2 l1, with t1, t2 the unit
-/// tangents of the edges before and after the joint and l1, l2 their lengths: the derivative of a
-/// quadratic through three nodes, second order in edge length.
+/// Unit tangents of the two rods at every joint, 3 x joints: along +u of its u-rod, along +v of its
+/// v-rod. In a network that is no square grid u and v are the first two rods at the joint, oriented
+/// so that u x v points upwards in the flat; zero if there are not two. A tangent is proportional
+/// to t1 l2 + t2 l1, with t1, t2 the unit tangents of the edges before and after the joint and l1,
+/// l2 their lengths: the derivative of a quadratic through three nodes, second order in edge
+/// length.
 struct JointTangents {
   Eigen::Matrix3Xd u, v;
 
@@ -24,25 +25,27 @@ struct JointTangents {
   Eigen::Vector3d normal(Eigen::Index joint) const;
 };
 
+/// The tangents of a shape `x`, 3 x nodes, mm.
 JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
                              const Eigen::Matrix3Xd& x);
 
-/// K of every complete cell = 2 pi - sum of its four interior angles, each between the tangents of
-/// the rods at the joint (rad). [Hazzidakis 1880; Baek 2018, eq. 2]
+/// Integrated Gauss curvature of every complete cell, rad: K = 2 pi - the sum of its four interior
+/// angles, each between the tangents of the rods at the joint [Hazzidakis 1880; Baek 2018, eq. 2].
 Eigen::VectorXd cell_curvature(const Footprint& footprint, const JointTangents& tangents);
 
 // Curvature of the cells along an axis, in bins [Baek 2018, Fig. 4D].
 
-/// Bins of equal width over [-1, 1] of x/L, and what falls into each.
+/// Bins of equal width over [-1, 1] of x/L, and the statistics of the cells in each.
 struct CurvatureBins {
   Eigen::VectorXd low, high;  ///< ends of each bin in x/L
-  Eigen::VectorXi cells;      ///< how many cells
-  Eigen::VectorXd mean;       ///< of K over the bin's cells, rad; NaN where there is none
-  Eigen::VectorXd deviation;  ///< sqrt(mean of (K - mean)^2), rad: how unlike the cells are
+  Eigen::VectorXi cells;      ///< number of cells
+  Eigen::VectorXd mean;       ///< mean of K over the bin's cells, rad; NaN if there is none
+  Eigen::VectorXd deviation;  ///< standard deviation sqrt(mean of (K - mean)^2), rad
 };
 
-/// The paper's five bins are 0.4 wide. A cell belongs to the bin of its centroid's x/L; one outside
-/// the range to the bin at that end. `x_over_L` and `K`: one per cell.
+/// Sorts the cells into bins; the paper has five, which are 0.4 wide. A cell belongs to the bin of
+/// its centroid's x/L, a cell outside the range to the first or last bin. `x_over_L` and `K`: one
+/// per cell.
 CurvatureBins curvature_bins(const Eigen::VectorXd& x_over_L, const Eigen::VectorXd& K,
                              int bins = 5);
 
@@ -64,8 +67,6 @@ class NetDeviation {
   Eigen::VectorXd of_joints_, sorted_;
 };
 
-// How far a push at one joint is felt.
-
 /// The reach of a displacement field |u|/depth over the joints [Baek 2018, Fig. 4C].
 struct PushReach {
   double above_tenth = 0;  ///< fraction of the joints with |u|/depth > 0.1
@@ -75,50 +76,47 @@ struct PushReach {
   double lowest_latitude_deg = 0;
 };
 
-/// `before`, `now`: 3 x joints, mm; `depth`: of the push, mm. All NaN at depth 0.
+/// The reach of a push of depth `depth`, mm, from the positions `before` and `now`, 3 x joints, mm.
+/// All NaN at depth 0.
 PushReach push_reach(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now, double depth);
 
-// By which mode rods buckled.
-
-/// Inflections of every rod of a mesh whose nodes lie at `x` (3 x nodes, mm): how often its
-/// curvature vector comes back on the other side, that is, with a negative product with the one
-/// before. Curvatures below a twentieth of the rod's largest are not looked at. 0: buckled by the
-/// first mode.
+/// Number of inflections of every rod of a mesh whose nodes have the positions `x`, 3 x nodes, mm:
+/// how often the scalar product of consecutive curvature vectors is negative. Curvatures below a
+/// twentieth of the rod's largest are ignored. 0: the rod buckled in its first mode.
 std::vector<int> inflections(const RodMesh& mesh, const Eigen::Matrix3Xd& x);
 
-// Groups of symmetries of the square, up and down among them, by name.
+// Groups of symmetries of the square, with those that invert z.
 
-/// Indices of square_symmetries(), ascending.
+/// A group as indices into square_symmetries(), ascending.
 using SymmetryGroup = std::vector<int>;
 
-/// Schoenflies name of a group of them, with the position of its mirrors where there are two: "C1",
-/// "Cs_axis", "Cs_diagonal" (one vertical mirror), "C2", "C2v_axes", "C2v_diagonals", "C4", "C4v"
-/// (full symmetry); with maps that invert z "Ci", "C2_level_axis", "C2_level_diagonal", "C2h_axis",
-/// "C2h_diagonal", "S4", "D2_axes", "D2_diagonals", "D2d_axes", "D2d_diagonals" (its mirrors),
-/// "D4", and "flat" for all that contain the reflection at the horizontal plane.
+/// Schoenflies name of a group, with the position of its axes or mirrors where two are possible.
+/// Without maps that invert z: "C1", "Cs_axis", "Cs_diagonal" (one vertical mirror), "C2",
+/// "C2v_axes", "C2v_diagonals", "C4", "C4v" (full symmetry). With such maps: "Ci", "C2_level_axis",
+/// "C2_level_diagonal", "C2h_axis", "C2h_diagonal", "S4", "D2_axes", "D2_diagonals", "D2d_axes",
+/// "D2d_diagonals" (position of the mirrors), "D4", and "flat" for all groups with the reflection
+/// at the horizontal plane.
 std::string name_of_group(const SymmetryGroup& group);
 
-/// All groups among `symmetries`, each once: the trivial one and those of flat shapes left out, of
-/// groups with the same name the first. In the order of their size, the largest first.
+/// The groups of elements of `symmetries`, the largest first, without the trivial group and those
+/// of flat shapes. Of groups with the same name only the first is listed.
 std::vector<SymmetryGroup> subgroups(const std::vector<MeshSymmetry>& symmetries);
 
-/// Those of `symmetries` that leave a shape as it is: no joint (3 x n, mm) moves by more than
-/// `tolerance_mm`.
+/// The group of those `symmetries` that leave a shape unchanged: they move no joint (3 x n, mm) by
+/// more than `tolerance_mm`.
 SymmetryGroup group_of(const std::vector<MeshSymmetry>& symmetries, const Eigen::Matrix3Xd& joints,
                        double tolerance_mm);
 
-// How far a shape is from the symmetry that another one has: the amplitude of a bifurcation
-// diagram.
-
-/// Those of the eight symmetries of the square (rotations and mirrors about the z-axis) that map a
-/// flat footprint onto itself and leave a shape of it unchanged.
+/// The symmetries of a shape, and the part of other shapes that breaks them: the amplitude in a
+/// bifurcation diagram. Considered are the eight symmetries of the square (rotations about the
+/// z-axis, vertical mirrors) that map the flat footprint onto itself.
 class SharedSymmetry {
  public:
-  /// `flat` and `shape`: the joints, 2 x n and 3 x n, mm, both about their own middle. A symmetry
-  /// of the shape moves no joint further than `within_mm`.
+  /// `flat` and `shape` are the positions of the joints, 2 x n and 3 x n, mm; both are centred on
+  /// their own middle. A symmetry of the shape moves no joint further than `within_mm`.
   SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix3Xd& shape, double within_mm);
 
-  /// How many there are, the identity among them: 1 to 8.
+  /// Number of symmetries of the shape with the identity: 1 to 8.
   int order() const { return int(elements_.size()); }
 
   /// The part of a shape that breaks the symmetry, x - mean of g x over the group: 3 x n, mm.
@@ -127,14 +125,14 @@ class SharedSymmetry {
  private:
   struct Element {
     Eigen::Matrix2d turn;
-    std::vector<int> image;  // joint k goes to where joint image[k] is
+    std::vector<int> image;  // the element maps joint k to the position of joint image[k]
   };
   static Eigen::Matrix3Xd moved(const Element& element, const Eigen::Matrix3Xd& joints);
 
   std::vector<Element> elements_;
 };
 
-/// Root of the mean square over the columns.
+/// Root mean square of the norms of the columns.
 double root_mean_square(const Eigen::Matrix3Xd& columns);
 
 }  // namespace gridshell

@@ -14,7 +14,7 @@
 namespace gridshell {
 namespace {
 
-/// Variance of the estimate [Chao 1987, eq. 8; without f2 the bias-corrected form].
+/// Variance of the estimate [Chao 1987, eq. 8]; for f2 = 0 the bias-corrected form.
 double variance(double f1, double f2, double estimate) {
   if (f2 > 0) {
     const double r = f1 / f2;
@@ -60,7 +60,7 @@ bool parse(const std::string& text, StateClass& value) {
   return word.has_value();
 }
 bool parse(const std::string& text, Disturbance& value) {
-  // words of earlier versions
+  // names of earlier versions are read, too
   const auto word = find_word<Disturbance>(text == "let out" ? "released"
                                            : text == "poked" ? "pushed"
                                                              : text);
@@ -70,13 +70,13 @@ bool parse(const std::string& text, Disturbance& value) {
 bool parse(const std::string& text, StateName& value) {
   value = {};
   if (text.empty()) return true;
-  // earlier versions had the number alone, which read_state_tables() names
+  // earlier versions wrote the number alone; read_state_tables() adds the class
   const std::size_t dot = text.find('.');
   const auto number = parse_number<int>(text.substr(dot == text.npos ? 0 : dot + 1));
   value.number = number.value_or(0);
   return number && (dot == text.npos || parse(text.substr(0, dot), value.kind));
 }
-/// A number that is not known has an empty cell.
+/// Reads a number; an empty cell is an unknown floating-point number.
 template <class Number>
 bool parse(const std::string& text, Number& value) {
   if constexpr (std::is_same_v<Number, double>) value = unknown;
@@ -85,7 +85,8 @@ bool parse(const std::string& text, Number& value) {
   return number || (std::is_same_v<Number, double> && text.empty());
 }
 
-/// What is wrong with the names of the columns, or empty. Earlier versions had fewer numbers.
+/// The error in the names of the columns; empty: none. Columns of floating-point numbers may be
+/// missing, as in files of earlier versions.
 template <class Row>
 std::string heading_error(const std::vector<std::string>& names) {
   std::size_t found = 0;
@@ -121,7 +122,7 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
   return rows;
 }
 
-/// Whether a state is listed, or none; its kind is what the list says.
+/// Sets the class of a name from the list of states. False if the state is not in the list.
 bool put_kind(const std::vector<StateRow>& rows, StateName& name) {
   if (name.number == 0) return true;
   const auto row = std::ranges::find(rows, name.number, &StateRow::state);
@@ -132,7 +133,7 @@ bool put_kind(const std::vector<StateRow>& rows, StateName& name) {
 Result<StateSearch> read_search(const std::filesystem::path& file) {
   TRY(text, read_file(file, largest_text));
   StateSearch search;
-  // earlier versions looked for no barriers
+  // earlier versions did not search for barriers
   const auto may_lack = [](const std::string& key) {
     return key == "paths_followed_for_barriers" || key == "passes_found";
   };
@@ -193,7 +194,7 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
   TRY(search, read_search(folder / search_name));
   tables.rows = std::move(*rows);
   tables.search = std::move(*search);
-  // a search need not have looked for these
+  // not every search writes these files
   const auto read_if_there = [&]<class Row>(const char* name, std::vector<Row>& all) {
     std::error_code error;
     if (!std::filesystem::exists(folder / name, error)) return Result<void>();

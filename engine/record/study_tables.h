@@ -1,5 +1,5 @@
-// What the charts of methods are made of: a line of accuracy.csv a point of speed against accuracy,
-// a line of stability.csv a cell of a map. Millimetres, seconds.
+// Rows of the tables of studies: speed against accuracy (accuracy.csv), scaling, maps of where
+// methods fail (stability.csv), modes, bifurcation diagrams, load cases. Millimetres, seconds.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 namespace gridshell::record {
 
 /// Outcome of a method's run, judged by a reference. The last three are *silent*: the method
-/// reported success.
+/// reported success although its result is wrong.
 enum class RunOutcome {
-  right,          ///< reported success, and the state is the requested one
-  refused,        ///< the method said that it cannot, or that what it found is not stable
-  not_converged,  ///< ended without an equilibrium and reported it
-  blow_up,        ///< grew without bound, and said so
-  too_slow,       ///< stopped at the time limit
+  right,    ///< the method reported success, and the state is the requested one
+  refused,  ///< the method reported that it cannot solve this, or that the state is not stable
+  not_converged,  ///< it reported that it found no equilibrium
+  blow_up,        ///< it grew without bound and reported it
+  too_slow,       ///< it was stopped at the time limit
   planar_saddle,  ///< equilibrium in the boundary's plane, where the shell is unstable
   other_state,    ///< another stable equilibrium than the one the path leads to
   silent_wrong,   ///< neither: off by more than ten times the tolerance, or with negative pivots
@@ -27,14 +27,14 @@ enum class RunOutcome {
 /// Whether a user would have received a wrong result without a message.
 bool silently_wrong(RunOutcome outcome);
 
-/// One method on one mesh.
+/// One method on one mesh: a row of accuracy.csv.
 struct AccuracyRow {
   std::string method;
-  int edges_per_segment = 0;  ///< of the finest mesh; 0 for the net
+  int edges_per_segment = 0;  ///< on the finest mesh; 0 for the net
   int dof = 0;
-  double error = unknown;  ///< largest joint error over R_o or rho
-  double cpu_s = unknown;  ///< median
-  double cpu_min_s = unknown, cpu_max_s = unknown;
+  double error = unknown;                           ///< largest joint error over R_o or rho
+  double cpu_s = unknown;                           ///< median processor time
+  double cpu_min_s = unknown, cpu_max_s = unknown;  ///< least and largest processor time
   RunOutcome outcome = RunOutcome::right;
 };
 template <RecordOf<AccuracyRow> Row, class Visit>
@@ -44,10 +44,10 @@ void fields(Row& row, const Visit& visit) {
              "cpu_max_s", row.cpu_max_s, "outcome", row.outcome);
 }
 
-/// How a method's time grows with the number of rods.
+/// The time of a method for a number of rods.
 struct ScalingRow {
   std::string method;
-  int rods = 0;  ///< a direction
+  int rods = 0;  ///< rods per direction
   int edges_per_segment = 0, dof = 0;
   double cpu_s = unknown, cpu_min_s = unknown, cpu_max_s = unknown;
   RunOutcome outcome = RunOutcome::right;
@@ -59,7 +59,7 @@ void fields(Row& row, const Visit& visit) {
              "cpu_max_s", row.cpu_max_s, "outcome", row.outcome);
 }
 
-/// One cell of a map.
+/// One cell of a map: a row of stability.csv.
 struct StabilityRow {
   std::string map, method;
   std::string x_name;
@@ -77,17 +77,16 @@ void fields(Row& row, const Visit& visit) {
 /// Slope of log(y) over log(x) by least squares; NaN for fewer than four positive points.
 double exponent(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Indices of the points that no other point exceeds both in speed and in accuracy, from the
-/// fastest to the most accurate; only outcomes `right`. Errors within 5 % count as equal, since
-/// methods on one mesh differ by their convergence.
+/// Indices of the rows of outcome `right` that no other row exceeds both in speed and in accuracy,
+/// from the fastest to the most accurate. Errors within 5 % count as equal, since methods on the
+/// same mesh differ by their convergence.
 std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows);
 
-// How a shell vibrates: a line of modes.csv a mode.
-
-/// A natural vibration about an equilibrium, extrapolated over the last two meshes.
+/// A natural vibration about an equilibrium, extrapolated over the last two meshes: a row of
+/// modes.csv.
 struct ModeRow {
-  int mode = 0;  ///< from 1, in ascending order
-  /// Below 0: no vibration, the state is not stable and leaves as exp(2 pi |f| t).
+  int mode = 0;  ///< number from 1, in ascending order of frequency
+  /// Below 0: no vibration; the state is unstable, and disturbances grow as exp(2 pi |f| t).
   double frequency_Hz = unknown;
   double error_Hz = unknown;  ///< NaN on one mesh
   double residual = unknown;  ///< |K v - lambda M v| / |lambda M v| on the finest mesh
@@ -98,27 +97,27 @@ void fields(Row& row, const Visit& visit) {
              "residual", row.residual);
 }
 
-// A bifurcation diagram: the points of a path and of the branches that leave it.
+// A bifurcation diagram: the points of a path and of the branches that bifurcate from it.
 
-/// What happens at a point of a branch.
+/// Event at a point of a branch.
 enum class BranchEvent {
   none,
   bifurcation,  ///< stability changes and the path continues: branches cross
   turn,         ///< a limit point (fold)
   joins,        ///< the branch meets one that was followed before
-  locking,      ///< the rods are at their length: it ends there
-  lost,         ///< it could not be followed further
+  locking,      ///< the rods reach the strain limit: the branch ends
+  lost,         ///< the branch could not be followed further
 };
 constexpr auto words(BranchEvent) { return names_except<BranchEvent>({{BranchEvent::none, ""}}); }
 
 /// One equilibrium of a branch; points of a branch are in the order of its arc length.
 struct BranchPoint {
   int branch = 0;       ///< 0: the path itself
-  double progress = 0;  ///< of the actuation, or of the push
+  double progress = 0;  ///< progress of the actuation, or of the push
   double boundary_radius_mm = unknown;
-  double height_mm = 0;        ///< highest joint above the boundary's plane
-  double amplitude = unknown;  ///< root mean square of what breaks the symmetry of the path, over
-                               ///< the length scale, signed
+  double height_mm = 0;        ///< height of the highest joint above the boundary's plane
+  double amplitude = unknown;  ///< signed root mean square of the part of the shape that breaks the
+                               ///< symmetry of the path, over the length scale
   double energy_mJ = 0;
   int negative_pivots = 0;
   BranchEvent event = BranchEvent::none;
@@ -135,11 +134,12 @@ void fields(Row& row, const Visit& visit) {
 
 // Load study of a shell: load.csv has a row per point of a case's path, cases.csv a row per case.
 
-/// A state under a multiple of the case's loads.
+/// A state under a multiple of a case's loads: a row of load.csv.
 struct LoadPoint {
   std::string load_case;
   double factor = 0;
-  double way_mm = 0;  ///< largest displacement of a joint, along its direction
+  /// displacement of the joint that moves most at the loss of stability, along its direction
+  double way_mm = 0;
   int negative_pivots = 0;
   BranchEvent event = BranchEvent::none;
   double utilisation = unknown;  ///< largest stress over the rods' strength
@@ -151,21 +151,23 @@ void fields(Row& row, const Visit& visit) {
              row.utilisation);
 }
 
-/// What became of a case.
+/// Result of a load case: a row of cases.csv.
 struct LoadRow {
   std::string load_case;
-  double critical_factor = unknown;  ///< NaN: stability is not lost on the path
-  /// NaN on one mesh, or if the other has no loss of stability
+  /// load factor at which stability is lost; NaN: it is not lost on the path
+  double critical_factor = unknown;
+  /// its error; NaN on one mesh, or if stability is lost on one of two meshes only
   double error = unknown;
   BranchEvent event = BranchEvent::none;  ///< turn (a limit point), bifurcation, or why it ended
-  double linear_factor = unknown;         ///< K_0 + factor K_g singular; NaN: never
-  double linear_error = unknown;          ///< NaN on one mesh
+  /// factor of linear buckling, at which K_0 + factor K_g is singular; NaN: none
+  double linear_factor = unknown;
+  double linear_error = unknown;  ///< error of linear_factor; NaN on one mesh
   /// load factor at which a fibre reaches its rod's strength; NaN: none
   double strength_factor = unknown;
   double strength_error = unknown;
   double load_x_N = 0, load_y_N = 0, load_z_N = 0;  ///< sum of the loads at a factor of 1
-  int imperfections = 0;  ///< shells that were not perfect and lost their stability too
-  /// quantiles of their critical factors over the perfect shell's
+  int imperfections = 0;  ///< number of imperfect shells that lost their stability
+  /// quantiles (5, 50, 95 %) of their critical factors over that of the perfect shell
   double knock_down_5 = unknown, knock_down_50 = unknown, knock_down_95 = unknown;
 };
 template <RecordOf<LoadRow> Row, class Visit>

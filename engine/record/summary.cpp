@@ -48,7 +48,7 @@ namespace {
 
 constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
 
-/// Whether an older version did not write the key.
+/// Whether a file may lack the key, since an older version did not write it.
 bool may_lack(const std::string& key) {
   static const auto later = words_in(
       "program energies_error_mJ pushed_joint kind finished largest_strain steps doubt "
@@ -97,7 +97,7 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
   Json json = parsed(*text);
   if (!json.is_object()) return refuse("got no JSON object");
   Summary summary;
-  // what an older version did not say
+  // an older version did not write these
   summary.program.clear();
   for (const TermName& term : energy_terms) summary.energies[term.term] = unknown;
   summary.solved = !json.contains("stable") || !json["stable"].is_null();

@@ -17,60 +17,61 @@ namespace gridshell::record {
 /// How a run ended.
 enum class Limit { none, locking, snap, branch_lost, no_equilibrium, strength, contact };
 
-/// What a folder was made for, and so what its frames sample: a movie, or the stills of a figure.
+/// The command that made a folder, which decides what its frames sample: a movie, or the stills of
+/// a figure.
 enum class Kind { unknown, run, figure, movie };
 
-/// Version 0.1 did not say.
+/// Names of Kind; version 0.1 did not write it.
 constexpr auto words(Kind) { return names_except<Kind>({{Kind::unknown, ""}}); }
 
-/// Results of a run, for its last frame unless stated otherwise.
+/// Results of a run, for its last frame unless stated otherwise. Members without a comment are
+/// those of Frame.
 struct Summary {
-  std::string program = std::string("gridshell ") + version();  ///< that computed it
+  std::string program = std::string("gridshell ") + version();  ///< program that computed the run
   std::string preset;
   std::string model;         ///< "net", "bend" or "twist"
   std::string model_reason;  ///< one sentence: why this rod model is exact
   int edges_per_segment = 0;
   int rods = 0, joints = 0, cells = 0, dof = 0;
-  bool solved = true;  ///< false: the net itself; stability and residual are then null
+  bool solved = true;  ///< false: the net itself, without an equilibrium; stability is then null
   bool stable = false;
   int negative_pivots = 0;
   Limit limit = Limit::none;
   /// events that the path passed, as sentences; never empty with a limit
   std::string limit_reason;
-  std::string doubt;  ///< what is not confirmed; empty: nothing is in doubt
-  /// Whether no load step's estimated error is above the requested tolerance; `doubt` says by how
-  /// much.
+  std::string doubt;  ///< sentences on what is not confirmed; empty: all is confirmed
+  /// Whether the estimated error of every load step is within the requested tolerance; if not,
+  /// `doubt` has the error.
   bool tolerance_met = true;
   double residual_N = 0;
-  double largest_strain = unknown;  ///< of an edge along the rod, by size, with its sign
+  double largest_strain = unknown;  ///< axial strain of the edge with the largest |strain|
   double error_estimate_mm = unknown;
-  /// as of a Frame
   double force_N = unknown, push_error_N = unknown, stiffness_N_per_mm = unknown,
          stiffness_error_N_per_mm = unknown, largest_force_N = unknown, force_error_N = unknown,
          energy_error_mJ = unknown, largest_bending_strain = unknown, largest_stress_MPa = unknown,
          utilisation = unknown;
   std::string bending_strain_at, stress_at;
-  std::string pushed_joint;  ///< of [indentation]: "[0, -1]"; empty: none is pushed
-  Energies energies;         ///< by term, mJ
+  std::string pushed_joint;  ///< joint that [indentation] pushes: "[0, -1]"; empty: none
+  Energies energies;         ///< energy of each term, mJ
   double height_mm = 0, lowest_mm = unknown;
-  int contacts = -1;  ///< as of Frame
+  int contacts = -1;
   double rod_gap_mm = unknown, joint_gap_mm = unknown;
-  std::string contact;  ///< where on the path which parts came into contact; empty: nowhere
+  std::string contact;  ///< parts that came into contact, and at which progress; empty: none
   double total_K = 0;
   double max_deviation = unknown,
-         mean_deviation = unknown;                ///< from the net, over rho, joints only
-  double median_deviation = unknown;              ///< half of the joints lie nearer to the net
-  double deviation_p90 = unknown;                 ///< nine tenths do
-  double max_seam_gap_mm = unknown;               ///< between building blocks, in space
-  double max_seam_kink_deg = unknown;             ///< and of the rods' tangents across
-  int newton_iterations = 0, factorizations = 0;  ///< of the whole run
+         mean_deviation = unknown;     ///< deviations of the joints from the net, over rho
+  double median_deviation = unknown;   ///< median of these deviations
+  double deviation_p90 = unknown;      ///< their 90 % quantile
+  double max_seam_gap_mm = unknown;    ///< largest distance of building blocks at a seam
+  double max_seam_kink_deg = unknown;  ///< largest angle of a rod's tangents at a seam
+  int newton_iterations = 0, factorizations = 0;  ///< sums over the complete run
   double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
-  std::vector<std::string> steps;  ///< for [[step]]: the result of each, a sentence
+  std::vector<std::string> steps;  ///< result of each [[step]], a sentence
   Kind kind = Kind::unknown;
   /// false: the run was interrupted, and the folder has the frames computed so far
   bool finished = true;
 
-  /// Takes over what the last frame says of its state.
+  /// Copies the quantities of the last frame.
   void take_state(const Frame& last);
   /// "BREAKS: 2.08 times the strength"; empty if no fibre exceeds its rod's strength.
   std::string breaking() const;
@@ -110,8 +111,9 @@ void fields(Run& run, const Visit& visit) {
 /// The text of summary.json. What is unknown (NaN) is null; numbers read back bit for bit.
 std::string to_json(const Summary& summary);
 
-/// The summary as results of a point of a sweep, without what differs between repetitions (seconds)
-/// and what all points share (program, preset, model_reason, kind, finished).
+/// The summary as results of a point of a sweep, without what differs between repetitions
+/// (seconds), what is equal for all points (program, preset, model_reason, kind, finished), and
+/// texts on positions and steps.
 Figures figures_of(const Summary& summary);
 
 /// Writes summary.json completely or not at all. Errors: Fault::io with path and reason.

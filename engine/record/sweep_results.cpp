@@ -20,7 +20,7 @@
 namespace gridshell::record {
 namespace {
 
-/// The names of all figures, in the order in which they first come.
+/// The names of all figures, in the order of their first occurrence.
 std::vector<std::string> names_of(const SweepTable& table) {
   std::vector<std::string> names;
   for (const auto& row : table.rows)
@@ -39,7 +39,7 @@ std::string bare(const std::string& value) {
   return quoted ? value.substr(1, value.size() - 2) : value;
 }
 
-/// A cell as the figure that it was written from.
+/// The figure that a cell was written from.
 Figure figure_in(const std::string& cell) {
   if (cell.empty()) return {};
   if (cell == "true" || cell == "false") return cell == "true";
@@ -47,7 +47,7 @@ Figure figure_in(const std::string& cell) {
   return cell;
 }
 
-/// Whether a cell before the figures is what its column says; it is put into `row`.
+/// Reads a cell of a column before the figures into `row`. False if it does not fit its column.
 bool take_key(const std::string& name, const std::string& cell, SweepTable::Row& row) {
   if (name == "case") {
     row.keys.case_name = cell;
@@ -62,11 +62,13 @@ bool take_key(const std::string& name, const std::string& cell, SweepTable::Row&
     row.result.outcome = *word;
   } else {
     row.keys.values.push_back(cell);
+    if (name == leg_key) return parse_number<double>(cell).has_value();
+    if (name == rods_key) return parse_number<int>(cell).has_value();
   }
   return true;
 }
 
-constexpr std::size_t sum_length = 26;  // of ,"sum":"0123456789abcdef"}
+constexpr std::size_t sum_length = 26;  // length of ,"sum":"0123456789abcdef"}
 
 std::string ending_of(std::string_view text) {
   return fmt::format(",\"sum\":\"{:016x}\"}}", Checksum::of(text));
@@ -79,7 +81,7 @@ std::string sealed(const Json& json) {
   return text + ending_of(text) + "\n";
 }
 
-/// The object of a line, or nothing where its checksum is wrong.
+/// The object of a line; empty if its checksum is wrong.
 std::optional<Json> without_checksum(std::string_view line) {
   if (line.size() <= sum_length) return std::nullopt;
   const auto text = line.substr(0, line.size() - sum_length);
@@ -89,7 +91,7 @@ std::optional<Json> without_checksum(std::string_view line) {
   return json;
 }
 
-/// Whether a key is there and of that kind.
+/// Whether the object has this key with a value of this type.
 bool has(const Json& json, const char* key, bool (Json::*kind)() const noexcept) {
   return json.contains(key) && (json.at(key).*kind)();
 }
@@ -216,13 +218,18 @@ Result<SweepTable> read_sweep_csv(std::string_view text) {
   for (std::size_t line = 1; line < rows.size(); ++line) {
     const auto& cells = rows[line];
     SweepTable::Row& row = table.rows.emplace_back();
-    bool good = cells.size() == names.size() && figures < names.size();
-    for (std::size_t k = 0; good && k < figures; ++k) good = take_key(names[k], cells[k], row);
-    if (!good) return invalid("line {} is no point of a sweep", line + 1);
+    if (cells.size() != names.size() || figures >= names.size())
+      return invalid("line {}: got {} cells, expected {} of a point of a sweep", line + 1,
+                     cells.size(), names.size());
+    for (std::size_t k = 0; k < figures; ++k)
+      if (!take_key(names[k], cells[k], row))
+        return invalid("line {}: {}: got '{}', expected a value of a sweep", line + 1, names[k],
+                       cells[k]);
     for (std::size_t k = figures; k + 1 < names.size(); ++k)
       row.result.figures.emplace_back(names[k], figure_in(cells[k]));
     row.result.reason = cells.back();
   }
+  if (table.rows.empty()) return invalid("got no point of a sweep, expected at least one");
   return table;
 }
 
@@ -271,12 +278,12 @@ Result<SweepLog> SweepLog::open(const fs::path& file, const SweepIdentity& name,
   return log;
 }
 
-/// Reads what is there, drops what was cut off, and begins where there is nothing.
+/// Reads the log, drops an incomplete last line, and writes the first line if there is none.
 Result<void> SweepLog::resume_log(const SweepIdentity& name) {
   TRY(contents, read_sweep_log(file_));
   contents_ = std::move(*contents);
   if (contents_.whole_bytes == 0) {
-    // a first line that was cut off is a part of the one that belongs there, or another's text
+    // an incomplete first line must be the start of this sweep's one, else it is another file
     TRY(text, read_file(file_));
     if (!first_line(name).starts_with(*text))
       return refuse(Fault::bad_input, "it is no log of a sweep");
@@ -314,7 +321,7 @@ bool PowerLaw::holds() const {
   double worst = 0;
   for (std::size_t k = 0; k < law.size(); ++k)
     worst = std::max(worst, std::abs(std::log(found[k] / law[k])));
-  // of n neighbours n/2 +- sqrt(n)/2 are on one side by chance: the limit is two of those
+  // of n pairs n/2 +- sqrt(n)/2 have equal signs by chance: the limit is two standard deviations
   const double neighbours = std::max(1.0, double(law.size()) - 1);
   if (worst > close && same_side > 0.5 + 1 / std::sqrt(neighbours)) return false;
   return scatter < 0.1 && std::ranges::all_of(keys, [](const LawRow& key) {
@@ -325,7 +332,9 @@ bool PowerLaw::holds() const {
 std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
                                   const std::string& figure) {
   constexpr std::size_t fewest_values = 3;
-  constexpr double least_ratio = 1.5;  // of a key's largest to its smallest: less is nearly a line
+  // least ratio of a key's largest to its smallest value: in a smaller range every law is nearly a
+  // line
+  constexpr double least_ratio = 1.5;
   const auto keys = Eigen::Index(table.axes.size());
   std::vector<std::set<double>> values(table.axes.size());
   std::vector<Eigen::VectorXd> rows;
@@ -333,7 +342,7 @@ std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& ca
   for (const SweepTable::Row& row : table.rows) {
     const Figure* known = row.result.figure(figure);
     if (row.keys.case_name != case_name || !known) continue;
-    // shells that pass through themselves are none
+    // shells that penetrate themselves cannot exist
     if (const Figure* overlaps = row.result.figure("contacts");
         overlaps && number_of(*overlaps) > 0)
       continue;

@@ -20,17 +20,19 @@
 
 namespace gridshell::record {
 
-/// How a point of a sweep ended. A path that met a limit is done too: its figures say so.
+/// How a point of a sweep ended. A path that met a limit is also `done`: its figures name the
+/// limit.
 enum class PointOutcome { done, no_equilibrium, refused };
 
-/// One figure of a run; nothing where it is not known.
+/// One figure (result) of a run; std::monostate: not known.
 using Figure = std::variant<std::monostate, bool, double, std::string>;
+/// Figures by their names.
 using Figures = std::vector<std::pair<std::string, Figure>>;
 
-/// A value of JSON as a figure, nothing where it is none.
+/// A value of JSON as a figure; not known if it is no boolean, number or text.
 Figure figure_of(const nlohmann::ordered_json& value);
 
-/// A figure as a number, NaN where it is none.
+/// A figure as a number, false and true as 0 and 1; NaN if it is no number.
 double number_of(const Figure& figure);
 
 /// A finished point.
@@ -40,20 +42,23 @@ struct PointResult {
   std::string reason;  ///< why it has no figures
   Figures figures;     ///< by the names of summary.json, units in them
 
-  /// The figure of that name, nothing where there is none.
+  /// The figure of that name; null if there is none.
   const Figure* figure(const std::string& name) const;
 };
 
-/// What a point was set to, as the files say it.
+/// The values of a point of a sweep, as its files contain them.
 struct PointKeys {
   std::string case_name;            ///< empty where the preset has no cases
   std::vector<std::string> values;  ///< as TOML, one per axis
-  int seed = 0;                     ///< 0 where the sweep has one alone
+  int seed = 0;                     ///< 0 if the sweep has only one
 };
 
-/// A finished sweep, a row a point in their order.
+/// The swept keys of a phase diagram: a number, and an integer.
+inline constexpr const char *leg_key = "footprint.longest_leg", *rods_key = "footprint.rods";
+
+/// A finished sweep: one row per point, in order.
 struct SweepTable {
-  std::vector<std::string> axes;  ///< "rod.diameter_mm"
+  std::vector<std::string> axes;  ///< swept keys: "rod.diameter_mm"
   bool has_cases = false, has_seeds = false;
   struct Row {
     PointKeys keys;
@@ -62,21 +67,21 @@ struct SweepTable {
   std::vector<Row> rows;
 };
 
-/// The text of sweep.csv: point, case and seed where there are some, the keys, the outcome, every
-/// figure that any point has, the reason.
+/// The text of sweep.csv, with the columns point, case (if there are cases), the swept keys, seed
+/// (if there are several), outcome, every figure that any point has, reason.
 std::string sweep_csv(const SweepTable& table);
 
-/// What such a text says; values are without the quotes of TOML. Errors (bad_input): it is none,
-/// naming the line.
+/// Reads the text of a sweep.csv; its values are texts without the quotes of TOML. Errors
+/// (bad_input), naming the line: it is no such text, a value of leg_key or rods_key is no number.
 Result<SweepTable> read_sweep_csv(std::string_view text);
 
-// How a figure grows with the keys that were swept, as a power law: a line of laws.csv a key.
+// Power laws of figures over the swept keys: laws.csv has one row per key.
 
-/// One key's part in the law of a figure.
+/// The exponent of one key in the power law of a figure.
 struct LawRow {
   std::string case_name, figure, key;
   double exponent = unknown;
-  double error = unknown;  ///< standard error, of what the law leaves
+  double error = unknown;  ///< standard error of the exponent, from the residuals
 };
 template <RecordOf<LawRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
@@ -89,32 +94,33 @@ struct PowerLaw {
   std::vector<LawRow> keys;
   double factor = 0;
   double scatter = 0;  ///< root mean square of the logarithms' residuals
-  /// Fraction of the pairs of neighbours in the order of the law that are on the same side of it: a
-  /// half if the residuals are random, near 1 if the results follow another curve.
+  /// Fraction of neighbouring points, in the order of the law's values, whose residuals have equal
+  /// signs: about 0.5 if the residuals are random, near 1 if the results follow another curve.
   double same_side = 0;
-  /// Whether the results follow the law: within a tenth, with each exponent known to a twentieth of
-  /// itself or of one, and with residuals that are random or at most a fiftieth.
+  /// Whether the results follow the law: the scatter is below 0.1, each exponent's error is below
+  /// 0.05 max(1, |exponent|), and the residuals are random or all at most 0.02.
   bool holds() const;
-  /// Value of the law and the result at each point, and the first key there.
+  /// At each point: value of the law, result, value of the first key.
   std::vector<double> law, found, first_key;
 };
 
-/// Power law of the points of one case that reached a state without interpenetrations. Empty if a
-/// key has fewer than three values or its largest is less than one and a half times its smallest,
-/// or if keys or results are not all numbers above 0.
+/// Power law of a figure over the points of one case that have it and are without
+/// interpenetrations. Empty if a key has fewer than three values, if its largest value is less than
+/// one and a half times its smallest, if keys or results are not all numbers above 0, or if there
+/// are too few points.
 std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
                                   const std::string& figure);
 
 // The log of a sweep, `sweep.jsonl`: a line that identifies the sweep, then one line per finished
-// point, each JSON with a checksum; lines are only appended. The writer has the file's lock.
+// point, each JSON with a checksum. Lines are only appended. The writer locks the file.
 
 inline constexpr const char* sweep_log_name = "sweep.jsonl";
 
 /// Identity of the sweep that a log belongs to.
 struct SweepIdentity {
-  std::string preset;        ///< for readers of the log
-  std::uint64_t config = 0;  ///< hash of everything that its numbers depend on
-  std::size_t points = 0;    ///< in all
+  std::string preset;        ///< name of the preset, only for readers of the log
+  std::uint64_t config = 0;  ///< hash of everything that the results depend on
+  std::size_t points = 0;    ///< number of all points
 
   bool same_sweep(const SweepIdentity& other) const {
     return config == other.config && points == other.points;
@@ -124,10 +130,10 @@ struct SweepIdentity {
 /// Contents of a log.
 struct SweepContents {
   SweepIdentity name;
-  std::map<std::size_t, PointResult> found;  ///< by the point; the first line of one counts
-  std::size_t damaged = 0;                   ///< lines whose checksum is wrong
-  bool cut_off = false;                      ///< the last line was not written to its end
-  std::uint64_t whole_bytes = 0;             ///< up to the end of the last whole line
+  std::map<std::size_t, PointResult> found;  ///< results by point; the first line of a point counts
+  std::size_t damaged = 0;                   ///< number of lines whose checksum is wrong
+  bool cut_off = false;                      ///< whether the last line is incomplete
+  std::uint64_t whole_bytes = 0;             ///< bytes up to the end of the last complete line
 };
 
 /// Reads a log that others may be writing. Errors (bad_input): no log of a sweep, naming the file.
@@ -136,7 +142,7 @@ Result<SweepContents> read_sweep_log(const std::filesystem::path& file);
 /// An open log, locked during its lifetime.
 class SweepLog {
  public:
-  /// What a point was set to, for its line.
+  /// Returns the values of a point, for its line.
   using KeysOf = std::function<PointKeys(std::size_t point)>;
 
   /// Starts a log or continues one; an incomplete last line is dropped. Errors (bad_input): another
@@ -148,7 +154,8 @@ class SweepLog {
   std::size_t damaged() const { return contents_.damaged; }
   bool cut_off() const { return contents_.cut_off; }
 
-  /// A line on the disk, or none. Errors: io.
+  /// Appends the line of a point and waits until it is on the disk. After an error no part of the
+  /// line is in the file. Errors: io.
   Result<void> append(const PointResult& result);
 
  private:

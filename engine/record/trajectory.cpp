@@ -8,7 +8,7 @@
 namespace gridshell::record {
 namespace {
 
-// limits of the recently used frames that a list with a source stores
+// a list with a source caches recently used frames until there are more than both limits
 constexpr std::size_t kept_bytes = std::size_t(64) << 20, kept_frames = 8;
 
 std::size_t bytes_of(const Frame& frame) {
@@ -22,13 +22,13 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   const auto joints = static_cast<Eigen::Index>(layout.joints.size());
   const auto itself = [](int index) { return std::array{index}; };
   const auto all = [](const auto& indices) -> const auto& { return indices; };
-  // the indices that each owner names, of `count` things of that kind
+  // checks the indices of each owner, which refer to `count` parts of a kind
   const auto check = [](const char* owner, const auto& owners, const auto& named, const char* kind,
                         Eigen::Index count) -> Result<void> {
     for (std::size_t k = 0; k < owners.size(); ++k)
       for (const int index : named(owners[k]))
         if (index < 0 || index >= count)
-          return invalid("{} {} names {} {} of {}", owner, k, kind, index, count);
+          return invalid("{} {}: got {} {}, expected 0 to {}", owner, k, kind, index, count - 1);
     return {};
   };
   const auto node = [](const Joint& joint) { return std::array{joint.node}; };
@@ -84,10 +84,12 @@ Result<void> check_numbers(const Layout& layout) {
   return {};
 }
 
-// rods are paths over the nodes, a joint being on two: longer lists are nobody's shell
+// rods are paths over the nodes, and most nodes are on one or two rods: longer lists are refused
 Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   Eigen::Index named = 0, most = 0;
-  for (const auto& rod : layout.rods) {
+  for (std::size_t k = 0; k < layout.rods.size(); ++k) {
+    const std::vector<int>& rod = layout.rods[k];
+    if (rod.size() < 2) return invalid("rod {}: got {} nodes, expected at least 2", k, rod.size());
     named += Eigen::Index(rod.size());
     for (const int node : rod) most = std::max<Eigen::Index>(most, node + 1);
   }
@@ -215,7 +217,7 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
 Result<void> check_consistency(const Trajectory& trajectory) {
   const Layout& layout = trajectory.layout;
   const FrameList& frames = trajectory.frames;
-  // without a frame nobody knows how many nodes there are
+  // without a frame the number of nodes is not known
   const Eigen::Index nodes = frames.empty() ? 0 : frames.front().nodes.cols();
   if (!frames.empty() || layout.original_boundary.cols() != layout.actuated_boundary.cols())
     TRY_DO(check_layout(layout, nodes));

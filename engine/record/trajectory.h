@@ -18,14 +18,14 @@
 
 namespace gridshell::record {
 
-/// Frames that lie elsewhere, all of one layout.
+/// Source of the frames of a FrameList, as a file; all frames have the same layout.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
   virtual std::size_t size() const = 0;
-  /// The k-th without_nodes(), which stay in memory; null: they do not.
+  /// The k-th frame without_nodes(), if the source has these in memory; else null.
   virtual const Frame* head(std::size_t) const { return nullptr; }
-  /// The k-th in order. Errors: io, bad_input when what is read is damaged.
+  /// Reads the k-th frame. Errors: io; bad_input if the data are damaged.
   virtual Result<Frame> read(std::size_t k) const = 0;
 };
 
@@ -61,22 +61,22 @@ class FrameList {
   std::size_t size() const { return source_ ? source_->size() : frames_.size(); }
   bool empty() const { return size() == 0; }
   const Frame& operator[](std::size_t k) const;
-  /// The k-th, of which nodes and what lies along rods may be missing: its numbers alone.
+  /// The k-th frame for readers of its scalars and K_bins: its other arrays may be empty.
   const Frame& head(std::size_t k) const {
     const Frame* head = source_ ? source_->head(k) : nullptr;
     return head ? *head : (*this)[k];
   }
-  /// Whether frames come from a source, which has looked whether they fit their layout.
+  /// Whether the frames come from a source, which has checked that they fit the layout.
   bool has_source() const { return source_ != nullptr; }
   const Frame& front() const { return (*this)[0]; }
   const Frame& back() const { return (*this)[size() - 1]; }
   const_iterator begin() const { return {this, 0}; }
   const_iterator end() const { return {this, size()}; }
 
-  /// Why a frame could not be read, at the first failure; an empty frame was returned for it.
+  /// The error of the first frame that could not be read, for which an empty frame was returned.
   const std::optional<Error>& fault() const { return fault_; }
 
-  /// All of them to change, which brings those of a source into memory.
+  /// All frames for changes; frames of a source are loaded into memory.
   std::vector<Frame>& edit();
   void push_back(Frame frame);
 
@@ -96,10 +96,10 @@ class FrameList {
   mutable std::optional<Error> fault_;
 };
 
-// The results of a run for programs that show, store or compare it: the net's layout, which does
-// not change, and one frame per sampled state. Millimetres, newtons, millijoules, z up.
+// The results of a run for programs that show, store or compare it: the layout, which does not
+// change, and one frame per sampled state. Millimetres, newtons, millijoules, z up.
 
-/// A crossing of a u-rod and a v-rod at grid position (u, v) of the flat footprint.
+/// A joint at position (u, v) of the flat footprint: on a grid the crossing of v-rod i and u-rod j.
 struct Joint {
   int i = 0, j = 0;
   double u_mm = 0, v_mm = 0;
@@ -115,11 +115,11 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// A building block on its own net: rods as polylines, where they would lie without the others.
+/// A building block on its own net: its rods as polylines, as if there were no other blocks.
 struct Part {
   std::string name;
-  std::vector<std::vector<int>> rods;  ///< columns of the points below
-  Eigen::Matrix3Xd net, flat;          ///< in space, and in the flat footprint
+  std::vector<std::vector<int>> rods;  ///< indices of the points of each rod
+  Eigen::Matrix3Xd net, flat;          ///< points in space, and in the flat footprint
 };
 
 /// A rod across the seam of two building blocks.
@@ -127,58 +127,60 @@ struct SeamRod {
   std::string seam;  ///< "left.east - middle.west"
   char family = 'u';
   double line_mm = 0;   ///< v of a u-rod, u of a v-rod
-  double gap_mm = 0;    ///< between the two nets at the seam
-  double kink_deg = 0;  ///< between its tangents there
+  double gap_mm = 0;    ///< distance of its positions on the two nets at the seam
+  double kink_deg = 0;  ///< angle between its tangents on the two nets at the seam
   bool operator==(const SeamRod&) const = default;
 };
 
 /// A joint that is pushed or pulled, and the direction: a unit vector.
 struct LoadedJoint {
-  int joint = 0;  ///< of Layout::joints
+  int joint = 0;  ///< index into Layout::joints
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  /// In the frames alone whose reactions say so, as a step by hand takes and lets go; else in all.
+  /// true: loaded only in frames in which a reaction acts on it, as steps push and release; false:
+  /// in all frames.
   bool at_times = false;
 };
 
-/// The net, fixed over a run.
+/// The parts of a shell and their connections, which are fixed over a run.
 struct Layout {
   double spacing_mm = 0;
   double rod_diameter_mm = 0;
   /// Size of the joints' cylinders; the height is measured above the rods' crossing. Runs of 0.1 do
-  /// not contain it: the paper's.
+  /// not contain it; the defaults are those of the paper.
   double joint_diameter_mm = 3, joint_height_mm = 5;
-  double table_mm = unknown;  ///< height of the plane that no rod passes; NaN: there is none
+  double table_mm = unknown;  ///< height of a table below the shell; NaN: there is none
   /// Diameter of each rod, for other sections that of a circle of equal area; empty: all
   /// rod_diameter_mm.
   std::vector<double> diameters_mm;
-  /// Width and thickness of each rod, one after the other, 0 of a round one, where all joints keep
-  /// sections to their normal, the thickness along it; empty: none, or they may turn.
+  /// Width and thickness of each rod in turn, 0 for a round rod, if all joints prescribe that the
+  /// thickness is along their normal; empty: all rods are round, or their sections may rotate.
   std::vector<double> laths_mm;
-  std::vector<double> strength_MPa;  ///< of each rod; empty: not known
-  double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
+  std::vector<double> strength_MPa;    ///< strength of each rod; empty: not known
+  double length_scale_mm = 0;          ///< length that errors are divided by: R_o of a circle, rho
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
-  std::vector<std::string> families;   ///< of each rod: "u" or "v"; empty: not known
+  std::vector<std::string> families;   ///< "u" or "v" for each rod; empty: not known
   std::vector<Joint> joints;
-  std::vector<int> above;  ///< of every joint the node of its second rod there; empty: the same
+  /// Node of the second rod at each joint; empty: the rods of each joint have the same node.
+  std::vector<int> above;
   std::vector<Cell> cells;
   std::vector<int> edge_points;  ///< nodes pinned on the boundary
   /// Nodes that may be constrained: joints, edge points, far ends of tails. Empty: not known.
   std::vector<int> supports;
   std::vector<int> sprung;                 ///< nodes that a spring pulls to a support
-  Eigen::Matrix3Xd spring_N_per_mm;        ///< stiffness of each along x, y, z; may be 0
+  Eigen::Matrix3Xd spring_N_per_mm;        ///< stiffness of each spring along x, y, z; may be 0
   Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
-  Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
-  Eigen::Matrix3Xd net_nodes;              ///< position of every node on the designed net, if any
-  Eigen::Matrix3Xd flat_nodes;             ///< and in the flat footprint, where there is a net
-  std::vector<Part> parts;                 ///< of a net made of building blocks
-  std::vector<SeamRod> seam_rods;          ///< and how they meet
-  std::vector<LoadedJoint> loaded_joints;  ///< where the shell is pushed or pulled
+  Eigen::Matrix3Xd actuated_boundary;      ///< the actuated positions of the same points
+  Eigen::Matrix3Xd net_nodes;              ///< every node on the Chebyshev net; empty: no net
+  Eigen::Matrix3Xd flat_nodes;             ///< every node in the flat footprint; empty: no net
+  std::vector<Part> parts;                 ///< building blocks, if the net is made of them
+  std::vector<SeamRod> seam_rods;          ///< rods across the seams of building blocks
+  std::vector<LoadedJoint> loaded_joints;  ///< joints that are pushed or pulled
   /// Whether nodes and K of frames are extrapolated over the last two meshes. Residuals and pivots
-  /// are those of the finest mesh always. Written, not read back.
+  /// are always those of the finest mesh. This is written, not read back.
   bool extrapolated = false;
 };
 
-/// Where a run comes from; empty words are not known.
+/// Origin of a run; empty texts are not known.
 struct Origin {
   std::string title, preset;
   std::string program;  ///< "gridshell 0.2.0"
@@ -195,19 +197,19 @@ struct Trajectory {
 inline double diameter_of(const Layout& layout, std::size_t rod) {
   return rod < layout.diameters_mm.size() ? layout.diameters_mm[rod] : layout.rod_diameter_mm;
 }
-/// Thickness of a rod over that of the layout; 1 if neither is known.
+/// Diameter of a rod over rod_diameter_mm of the layout; 1 if that is not known.
 inline double thickness_of(const Layout& layout, std::size_t rod) {
   const double over = diameter_of(layout, rod) / layout.rod_diameter_mm;
   return over > 0 && over < 1e3 ? over : 1;
 }
 
-/// How many numbers the forces, curvatures and energies of a frame are: edges and points of all
-/// rods.
+/// Number of edges of all rods: the length of Frame::axial_force_N.
 inline Eigen::Index edges_of_rods(const Layout& layout) {
   Eigen::Index edges = 0;
   for (const auto& rod : layout.rods) edges += std::max<Eigen::Index>(0, long(rod.size()) - 1);
   return edges;
 }
+/// Number of points of all rods: the length of Frame::curvature_per_mm and other arrays.
 inline Eigen::Index points_of_rods(const Layout& layout) {
   Eigen::Index points = 0;
   for (const auto& rod : layout.rods) points += Eigen::Index(rod.size());
@@ -217,32 +219,34 @@ inline Eigen::Index points_of_rods(const Layout& layout) {
 // Checks of the consistency of a trajectory's parts, so that its readers may trust indices and
 // numbers.
 
-/// Checks that every index of the layout refers to a part of a shell of `nodes` nodes, that rods
-/// have at most that many, that the two boundaries have equally many points, that nets have the
-/// required size, and that every number is finite. Errors: Fault::bad_input with the inconsistent
-/// parts and both numbers.
+/// Checks that every index of the layout is that of an existing part in a shell of `nodes` nodes,
+/// that all rods together have at most 4 `nodes` points, that the two boundaries have equal numbers
+/// of points, that nets and lists have the required size, and that every length is finite. Errors:
+/// Fault::bad_input with the inconsistent parts and both numbers.
 Result<void> check_layout(const Layout& layout, Eigen::Index nodes);
 
-/// The frame has `nodes` nodes and one K a cell. Errors: as above; `k` names the frame.
+/// Checks that a frame has `nodes` nodes, one K per cell, and arrays along rods of the required
+/// size. Errors: Fault::bad_input; `k` is the number of the frame in the message.
 Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k,
                          Eigen::Index nodes);
 
-/// All of this, of every frame the nodes of the first; a source has looked at its own.
+/// Checks the layout and that every frame has as many nodes as the first. Frames of a source are
+/// not read: the source has checked them. Errors: Fault::bad_input.
 Result<void> check_consistency(const Trajectory& trajectory);
 
-// Where the frames of a run go as they are found.
+// Receivers of the frames of a run.
 
-/// Takes a run's layout, then its certified frames one by one as they are found, in any order:
-/// `Frame::index` says which is which. An error stops the run and is passed on.
+/// Receives the layout of a run, then its certified frames as they are found, in any order of
+/// `Frame::index`. An error stops the run and is passed on.
 class Sink {
  public:
   virtual ~Sink() = default;
-  /// May come again, when a finer mesh takes over: what came before is then dropped.
+  /// Starts a run. Called again when a finer mesh replaces the frames so far, which are dropped.
   virtual Result<void> begin(Layout layout) = 0;
   virtual Result<void> take(Frame frame) = 0;
 };
 
-/// Keeps all frames, in the order of their index.
+/// Stores all frames in memory, in the order of their index.
 class MemorySink final : public Sink {
  public:
   Result<void> begin(Layout layout) override;

@@ -19,14 +19,15 @@ namespace gridshell::record {
 
 namespace {
 
-/// What a trajectory says that it is, in its header and as an attribute.
+/// Name of the format, in the header of a file and as an attribute.
 constexpr const char* trajectory_format = "gridshell trajectory 1";
 
-/// The bytes before the HDF5 part, its size and checksum. HDF5 looks for its own beginning at 0,
-/// 512, 1024 ...: what lies before is the program's to use.
+/// Size of the header before the HDF5 part. The HDF5 library looks for the start of its part at
+/// byte 0, 512, 1024 ..., and ignores the bytes before it.
 constexpr std::size_t header_size = 512;
 
-/// The header that a file should bear, from the bytes after it; nothing when they cannot be read.
+/// The header that a file should have, computed from the bytes after it; empty if they cannot be
+/// read.
 std::optional<std::string> expected_header(const ReadableFile& file,
                                            ChecksumKind kind = ChecksumKind::crc32) {
   constexpr std::uint64_t block = 1 << 18;
@@ -42,8 +43,8 @@ std::optional<std::string> expected_header(const ReadableFile& file,
   return header + std::string(header_size - header.size(), '\0');
 }
 
-/// Why a file is not trusted, or empty. A file without a header was written by another program: it
-/// is trusted if `no_checksum` is set.
+/// The reason why a file is refused; empty: it is read. A file without a header was written by
+/// another program: it is only read if `no_checksum` is set.
 std::string header_error(const ReadableFile& file, bool no_checksum) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
@@ -62,7 +63,7 @@ std::string header_error(const ReadableFile& file, bool no_checksum) {
          "program changed, --no-checksum, in Python no_checksum=True, reads what there is)";
 }
 
-constexpr std::size_t longest_word = 60000;  // what an attribute takes
+constexpr std::size_t longest_word = 60000;  // HDF5 limits an attribute to 64 kB
 
 void write_origin(hdf5::Writer& file, const Origin& origin) {
   for (const auto& [name, value] : {std::pair("title", &origin.title),
@@ -76,7 +77,8 @@ Origin read_origin(hdf5::Reader& file) {
   return {text("title"), text("preset"), text("program")};
 }
 
-/// The HDF5 part onto a descriptor, then the header before it; why that failed, or empty.
+/// Writes the HDF5 part to a descriptor, then the header before it. Returns the error, or an empty
+/// text.
 std::string write_error(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
   hdf5::Stream stream{descriptor, header_size, 0};
   hdf5::Writer file(stream);
@@ -96,8 +98,8 @@ std::string write_error(int descriptor, const AtomicFile& target, const Trajecto
   return put == ssize_t(header->size()) ? "" : words_of(put < 0 ? errno : ENOSPC);
 }
 
-/// How often this process has the file open: if another library (h5py) has it open too, the HDF5
-/// library cannot open it with another driver.
+/// How often this process has the file open. If another library (h5py) has opened it, the HDF5
+/// library cannot open it again with another driver.
 int times_open(const std::filesystem::path& path) {
   struct stat file {
   }, open{};
@@ -113,19 +115,19 @@ int times_open(const std::filesystem::path& path) {
 
 Result<Trajectory> read_checked(const std::filesystem::path& path) {
   const auto refuse = [](const std::string& reason) { return invalid(reason); };
-  const bool open = times_open(path) > 1;  // once by who asks
+  const bool open = times_open(path) > 1;  // the caller has opened it once
   const auto file = std::make_shared<hdf5::Reader>(path);
   if (!file->good())
     return refuse(open ? "it is open in this process (by h5py?): close it there first"
                        : "it is cut short or damaged");
   if (file->text_attribute("/", "format") != trajectory_format)
-    return refuse(fmt::format("it does not say \"{}\"", trajectory_format));
+    return refuse(fmt::format("it is not of the format \"{}\"", trajectory_format));
   Trajectory trajectory;
   trajectory.layout = read_layout(*file);
   trajectory.origin = read_origin(*file);
   trajectory.frames = read_frames(file, trajectory.layout);
   if (!file->good()) return refuse(file->reason());
-  // every frame is as long as the first: they share one dataset
+  // all frames are in the same datasets, so they have the same size as the first
   const Trajectory& read = trajectory;
   if (read.frames.empty()) return check_consistency(read).map([&] { return trajectory; });
   const Frame& first = read.frames.front();

@@ -5,29 +5,33 @@
 //   /joints         {i, j, u_mm, v_mm, node}
 //   /cells          {i, j, u_mm, v_mm, joints[4]}
 //   /cell_K         frames x cells      integrated Gauss curvature, rad
-//   /axial_force_N    frames x edges     of each edge, rod after rod
-//   /curvature_per_mm frames x points    at each point of each rod, rod after rod
+//   /K_bins         frames x bins x 3   mean, standard deviation of K (rad), number of cells
+//   /axial_force_N    frames x edges     axial force of each edge, rod after rod
+//   /curvature_per_mm frames x points    curvature at each point of each rod, rod after rod
 //   /bending_mJ_per_m frames x points    bending energy over length, at the same points
 //   /stress_MPa       frames x points    largest stress of a fibre, at the same points
-//   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
-//   /loads_N          frames x supports x 3   distributed to the same nodes
-//   /brace_force_N    frames x 2 x cells  axial, along both diagonals of each cell
-//   /joint_angle_deg, /joint_torque_Nmm   frames x joints, of joints with laws or springs
+//   /reactions_N      frames x supports x 3   reactions at joints, edge points, far ends of tails
+//   /loads_N          frames x supports x 3   loads, distributed to the same nodes
+//   /brace_force_N    frames x 2 cells   axial forces along both diagonals of each cell
+//   /joint_angle_deg, /joint_torque_Nmm   frames x joints, for joints with laws or springs
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
-//   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
-//                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,
-//                   "u" or "v"), supports (nodes that may be constrained), sprung (nodes that
-//                   springs pull to their supports) and spring_stiffness (along x, y, z, N/mm),
-//                   diameters (of each rod, mm, where they differ)
+//   /layout         spacing_mm, rod_diameter_mm, length_scale_mm, joint_diameter_mm,
+//                   joint_height_mm, table_mm (attributes); edge_points (nodes),
+//                   original_boundary, actuated_boundary (points x 3, mm), net_nodes, flat_nodes
+//                   (nodes x 3, mm); if known: families ("u" or "v" for each rod), supports (nodes
+//                   that may be constrained), sprung (nodes that springs pull to their supports)
+//                   and spring_stiffness (along x, y, z, N/mm), diameters, laths and strength (for
+//                   each rod), above (second node of each joint), load_joints, load_directions
+//   /parts          building blocks and the rods across their seams
 //   /               title, preset, program (attributes)
 //
-// Axial forces, curvature and bending along the rods are those of the finest mesh itself; reactions
-// are extrapolated as the energies of /frames are, and with the loads they balance to residual_N.
-// NaN, or no dataset: not known.
+// Axial forces, curvature, bending and stress along the rods are those of the finest mesh;
+// reactions are extrapolated as the energies of /frames are, and with the loads they balance to
+// residual_N. NaN, or no dataset: not known.
 //
-// The HDF5 part follows 512 bytes with its size and checksum, which HDF5 programs skip. Datasets
-// have their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames are written
-// and read one at a time.
+// The HDF5 part follows a header of 512 bytes with its size and checksum, which HDF5 programs skip.
+// Datasets have their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames are
+// written and read one at a time.
 #pragma once
 
 #include <filesystem>
@@ -37,13 +41,16 @@
 
 namespace gridshell::record {
 
-/// Writes `path` completely or not at all. Errors: Fault::io with path and reason (a full disk
-/// too); Fault::bad_input if the trajectory's parts are inconsistent.
+/// Writes `path` completely or not at all. Errors: Fault::io with path and reason, for a full disk,
+/// too; Fault::bad_input if the trajectory's parts are inconsistent.
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 struct TrajectoryReadOptions {
-  bool no_checksum = false;  ///< take a file without size and checksum, which another program wrote
-  bool trial = true;         ///< read it in a process of its own first
+  /// Whether to read files of other programs, which have no header or another checksum.
+  bool no_checksum = false;
+  /// Whether to read the file in a process of its own first, so that a damaged file cannot end this
+  /// one.
+  bool trial = true;
 };
 
 /// Opens a file of write_trajectory; its frames are read on demand. Columns that an older version

@@ -14,22 +14,24 @@ namespace gridshell::record {
 /// Writes /layout, /rods, /joints, /cells and, of building blocks, /parts.
 void write_layout(hdf5::Writer& file, const Layout& layout);
 
-/// Reads them; what failed is in `file`. Indices are still to be checked (consistency.h).
+/// Reads what write_layout() wrote. Errors are in `file`. The caller checks the indices
+/// (check_layout() of trajectory.h).
 Layout read_layout(hdf5::Reader& file);
 
-/// A layout as an HDF5 file in memory; empty when the library failed.
+/// The bytes of an HDF5 file with this layout; empty if the library failed.
 std::string image_of(const Layout& layout);
-/// Errors: bad_input with the reason.
+/// The layout in bytes of image_of(). Errors: bad_input with the reason.
 Result<Layout> layout_of_image(std::string_view bytes);
 
-// The frames of a run in HDF5: all of trajectory.h5 but layout and origin.
+// The frames of a run in HDF5: all of trajectory.h5 except layout and origin.
 
-/// Writes /nodes, /cell_K, what is known of the rods, /K_bins and /frames; each frame is taken once
-/// and let go.
+/// Writes /nodes, /cell_K, the arrays along rods that frames have, /K_bins and /frames. Each frame
+/// is read once, so that only a few are in memory.
 void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& frames);
 
-/// Frames that are read from the file on demand; the columns are in memory. Columns that an older
-/// version did not write are unknown. `file` has the error, if any; its parts must fit `layout`.
+/// Frames whose arrays are read from the file on demand; their columns are in memory. Columns that
+/// an older version did not write are unknown. Errors, also datasets that do not fit `layout`, are
+/// in `file`.
 FrameList read_frames(const std::shared_ptr<hdf5::Reader>& file, const Layout& layout);
 
 }  // namespace gridshell::record

@@ -182,7 +182,7 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
   }
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& position : from) box.extend(position);
-  // a shell that is constrained at a single position, as a cantilever, has the scale of its rods
+  // for a shell that is constrained at a single position, as a cantilever, the rods give the scale
   if (box.diagonal().norm() < made.footprint.spacing)
     for (const auto& point : points.colwise()) box.extend(scene.flat.origin + point);
   scene.length_scale_mm = 0.5 * box.diagonal().norm();

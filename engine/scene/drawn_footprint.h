@@ -21,7 +21,8 @@ struct CurveDesign {
   Eigen::Matrix2Xd actuated(const Eigen::Matrix2Xd& on_original) const;
 };
 
-/// Errors (bad_input): those of the curves and of the map between them, saying which.
+/// The original and the actuated boundary of a preset, and the map between them. Errors
+/// (bad_input): those of the curves and of the map.
 Result<CurveDesign> curve_design(const preset::Preset& preset);
 
 /// The end condition that a name denotes.
@@ -31,9 +32,9 @@ RodEnd hold_as(preset::EndKind kind);
 
 /// Fills footprint, frame, motion and boundaries of a scene from `[footprint] file`. The origin of
 /// the flat frame is the middle of the rods' bounding box. Supports move to the positions in the
-/// file; other ends to `[actuation] scale` times their position relative to the middle (0: they
-/// stay). Boundaries are the convex hull of the constrained points. Errors (bad_input): those of
-/// network_footprint().
+/// file; other ends to `[actuation] scale` times their position relative to the middle (0: they do
+/// not move). Boundaries are the convex hull of the constrained points. Errors (bad_input): those
+/// of network_footprint().
 Result<void> build_network(const preset::Preset& preset, Scene& scene);
 
 }  // namespace gridshell

@@ -17,7 +17,7 @@ namespace {
 
 /// The net as a planar graph.
 struct Graph {
-  Eigen::Matrix3Xd place;                // of nodes in the flat
+  Eigen::Matrix3Xd place;                // positions of nodes in the flat, mm
   std::vector<std::vector<int>> beside;  // the nodes around each, anticlockwise
 
   explicit Graph(const Footprint& footprint) {
@@ -69,7 +69,7 @@ FaceSide side_of(const Face& face, std::size_t k) {
   return {face.corners[k], face.corners[(k + 1) % face.corners.size()]};
 }
 
-/// The sides of faces that no other face shares, each in its face's order.
+/// The sides that belong to one face only, in the order of that face.
 std::set<FaceSide> edge_of(const std::vector<Face>& faces) {
   std::set<FaceSide> edge;
   for (const Face& face : faces)
@@ -84,7 +84,7 @@ Eigen::Vector3d edge_direction(preset::EdgeDirection direction, const Eigen::Vec
                                const Eigen::Vector3d& side) {
   switch (direction) {
     case preset::EdgeDirection::down:
-    case preset::EdgeDirection::pressure:  // has an energy
+    case preset::EdgeDirection::pressure:  // not used: it has an energy instead
       break;
     case preset::EdgeDirection::normal:
       return -normal;
@@ -94,7 +94,8 @@ Eigen::Vector3d edge_direction(preset::EdgeDirection direction, const Eigen::Vec
   return -Eigen::Vector3d::UnitZ();
 }
 
-/// 1/3 A . c of a face, A = 1/2 sum of x_k x x_(k+1), c the mean of its corners, as triangles.
+/// Adds the pressure on a face, as triangles: its energy is -p/3 A . c with A = 1/2 sum of x_k x
+/// x_(k+1) and the mean c of its corners.
 void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& actions) {
   const std::size_t corners = face.corners.size();
   for (std::size_t k = 0; k < corners; ++k) {
@@ -122,7 +123,7 @@ Result<void> check_pressure(const LoadCase& load, const std::string& key,
       const std::string place =
           node < joints ? fmt::format("joint [{}, {}]", footprint.joints[std::size_t(node)].i,
                                       footprint.joints[std::size_t(node)].j)
-                        : fmt::format("an end of rod {}", (node - joints) / 2);
+                        : fmt::format("end of rod {}", (node - joints) / 2);
       return invalid(
           "{} pressure: got a free {} at the edge of the faces, expected a fixed edge: such a "
           "load has no energy; one on the edge has, edge_direction = \"pressure\"",
@@ -131,7 +132,7 @@ Result<void> check_pressure(const LoadCase& load, const std::string& key,
   return {};
 }
 
-/// Towards the half of the shell that snow lies on; zero: all of it.
+/// Direction to the half of the shell with snow; zero: all of it.
 Eigen::Vector2d side_of(preset::SnowSide side) {
   switch (side) {
     case preset::SnowSide::x:
@@ -155,7 +156,7 @@ std::vector<Face> faces_of(const Footprint& footprint) {
   std::vector<Face> faces;
   const auto keep = [&](std::vector<int> corners, bool on_boundary) {
     Face face{std::move(corners), on_boundary};
-    // what is outside is walked round clockwise, and what has no area is no face
+    // the outside is traversed clockwise; a chain without area is no face
     const double least = 1e-9 * footprint.spacing * footprint.spacing;
     if (area_of(face, graph.place).z() > least) faces.push_back(std::move(face));
   };

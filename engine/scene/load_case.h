@@ -1,4 +1,4 @@
-// Load cases on the formed shell: how snow, wind and point forces become forces on its nodes.
+// Load cases on the formed shell: snow, wind, edge and point loads as forces on its nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +12,13 @@
 
 namespace gridshell {
 
-// The faces that rods and boundary enclose: what snow lies on and wind presses on.
+// The faces that rods and boundary enclose; snow and wind act on them.
 
-/// A face of the net: its corners in order, anticlockwise as seen from above the flat. Nodes are
-/// those of every mesh: joints, then edge points, begin and end of rod r at 2 r and 2 r + 1.
+/// A face of the net: its corners in order, anticlockwise as seen from above the flat. Node numbers
+/// are those of every mesh: joints, then edge points, start and end of rod r at 2 r and 2 r + 1.
 struct Face {
   std::vector<int> corners;
-  bool on_boundary = false;  ///< from its last corner to its first there is no rod but the boundary
+  bool on_boundary = false;  ///< whether the side from last to first corner is the boundary, no rod
 };
 
 /// All faces of a planar footprint. Each is traversed with the face on the left: at every node
@@ -30,37 +30,38 @@ std::vector<Face> faces_of(const Footprint& footprint);
 /// area in plan.
 Eigen::Vector3d area_of(const Face& face, const Eigen::Matrix3Xd& nodes);
 
-/// One case, its factors taken in.
+/// One load case, multiplied by its factors.
 struct LoadCase {
   std::string name;
-  double dead = 0;                  ///< how many times more the dead loads of forming
-  double snow_N_mm2 = 0;            ///< of plan, downwards
+  double dead = 0;                  ///< added to the factor of the dead loads
+  double snow_N_mm2 = 0;            ///< per area in plan, downwards
   double wind_N_mm2 = 0;            ///< pressure q
-  double wind_rad = 0;              ///< where it blows to, from +x towards +y
-  Eigen::Vector2d snow_side{0, 0};  ///< the half that has snow; zero: all
-  double edge_N_mm = 0;
+  double wind_rad = 0;              ///< direction to which it blows, from +x towards +y
+  Eigen::Vector2d snow_side{0, 0};  ///< towards the half with snow; zero: all of the shell
+  double edge_N_mm = 0;             ///< load per length of the edge
   preset::EdgeDirection edge_direction = preset::EdgeDirection::down;
   double pressure_N_mm2 = 0;  ///< on the faces, against their normals
   std::vector<PointLoad> points;
 };
 
-/// The case's forces on joints and edge points without its dead loads, computed on the shape
-/// `nodes` (joints first, then edge points) and fixed from then on. Each corner of a face carries
-/// the same fraction of the load on the face: of snow s on the face's area in plan A_z, if that is
-/// not overhung, -s A_z z, at the corners on the side that has snow; of wind of direction w on its
-/// area A = |A| n the force q (w . n) A. For each side a to b that belongs to one face only,
-/// anticlockwise about n, both ends carry half of its length times the load on the edge: along -z,
-/// -n or n x (b - a).
+/// The case's forces on joints and edge points without its dead loads. They are computed on the
+/// shape `nodes` (joints first, then edge points) and constant, except a pressure. The corners of a
+/// face carry equal fractions of the load on the face. Snow s: -s A_z z with the area in plan A_z,
+/// if it is positive, at the corners on the side with snow. Wind of direction w: q (w . n) A with
+/// the area A = |A| n. Edge load: at each side from a to b that belongs to one face only
+/// (anticlockwise about n), both ends carry half of its length times the load, along -z, -n or n x
+/// (b - a).
 ///
-/// A pressure p rotates with the shell. Its energy is p times the volume under the faces, as a sum
-/// of cones from the origin, 1/3 A . c of a face, c being the mean of its corners; the walls of the
-/// cones are subtracted at the edge, which is constrained (load_cases_of()). For a pressure on the
-/// edge, per length, the energy is p times the area in plan inside the edge, constrained or not.
+/// A pressure p stays normal to the shell. Its energy is p times the volume under the faces: the
+/// sum of cones from the origin, 1/3 A . c for a face, c being the mean of its corners, without the
+/// walls of the cones at the edge, which must be constrained (load_cases_of()). For a pressure on
+/// the edge, per length, the energy is p times the area in plan inside the edge, constrained or
+/// not.
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 
-/// Rows of `key` as forces on joints and on free ends of a network, which are named as its joints.
-/// Errors (bad_input): a joint that is not there.
+/// Converts rows (i, j, force in N) of `key` to forces on joints, and on free ends of a network,
+/// which are named like its joints. Errors (bad_input): a joint that does not exist.
 Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
                                          const Footprint& footprint);
 

@@ -25,7 +25,7 @@ std::vector<std::string> lines_text(const TriangleMesh& mesh) {
   return texts;
 }
 
-/// The mesh of a file, mended where it is no sheet with a rim.
+/// The mesh of a file, repaired if it is no sheet with a rim. `done`: the repairs.
 Result<TriangleMesh> sheet_of(const preset::SurfaceData& file, std::vector<std::string>& done) {
   const Eigen::Matrix3Xd vertices = preset::matrix_of<3>(file.vertices);
   auto made = TriangleMesh::make(vertices, file.triangles);
@@ -35,7 +35,7 @@ Result<TriangleMesh> sheet_of(const preset::SurfaceData& file, std::vector<std::
   return TriangleMesh::make(mesh.vertices, std::move(mesh.triangles));
 }
 
-/// Where the preset says that the net begins.
+/// The start of the net that the preset gives.
 Result<NetStart> given_start(const preset::Net& requested, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm) {
   TRY(place, given_place(requested, shape, outside, allowed_mm));
@@ -51,7 +51,7 @@ Result<NetStart> given_start(const preset::Net& requested, const ShapedSurface& 
 }  // namespace
 
 Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
-  constexpr double apex_off = 0.01;  // of the spacing
+  constexpr double apex_off = 0.01;  // largest distance of the apex, over the spacing
   const auto about_file = [](const Error& error) {
     return Error{error.fault, "[net] file: " + error.message};
   };

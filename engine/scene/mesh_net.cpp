@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Where rods end, and why.
+/// Position at which a rod ends, and why.
 struct End {
   Eigen::Vector3d at;
   RodStop why;
@@ -33,7 +33,7 @@ std::vector<End> ends_of(const MarchedGrid& grid) {
   return ends;
 }
 
-/// One march on a coarse grid.
+/// Nets on a coarse grid, with their properties.
 struct Trial {
   const Surface& surface;
   const Barriers& lines;
@@ -71,10 +71,10 @@ struct Trial {
   }
 };
 
-/// How good a start is: the larger, the better.
+/// The quality of a start: larger is better.
 struct Ranking {
   bool by_angle = false;
-  double enough = 0;  ///< of the area: from there on only the angle counts
+  double enough = 0;  ///< fraction of the area from which only the angle counts
 
   static double area_of(const NetStart& start) { return start.reached - 0.5 * start.seams; }
   double operator()(const NetStart& start) const {
@@ -84,7 +84,7 @@ struct Ranking {
   }
 };
 
-/// `count` of the points, each as far as can be from those before.
+/// `count` of the points, each as far as possible from the previous ones.
 std::vector<Eigen::Vector3d> spread(const std::vector<AreaSample>& samples, std::size_t count) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const AreaSample& one : samples) middle += one.area * one.at;
@@ -106,7 +106,7 @@ bool alike(const NetStart& one, const NetStart& other, double size) {
 }
 
 std::string text_of(const NetStart& start) {
-  // what is rounded to -0 is 0
+  // adding 0.0 turns -0 into 0
   const Eigen::Array3d apex = (10 * start.place.apex).array().round() / 10 + 0.0;
   return fmt::format("apex_mm = [{:.1f}, {:.1f}, {:.1f}], axis = \"x\", axis_deg = {:.1f}",
                      apex.x(), apex.y(), apex.z(), start.axis_deg);
@@ -117,7 +117,7 @@ std::string text_of(const NetStart& start) {
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm) {
   std::vector<AreaSample> samples;
   PointGrid near(apart_mm / 2);
-  // a few of many small triangles represent those around them
+  // of many small triangles a few represent those around them
   const auto add = [&](const AreaSample& one) {
     const auto takes = [&](int k) {
       AreaSample& other = samples[std::size_t(k)];
@@ -186,7 +186,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
                                           const Barriers& lines, const Surface::Function& outside,
                                           double least_angle, double spacing_mm, bool by_angle) {
   constexpr std::size_t places = 40, followed = 5;
-  constexpr double turn_deg = 15, given_up = 0.05;  // of the area, for a larger angle
+  constexpr double turn_deg = 15, given_up = 0.05;  // fraction of the area, for a larger angle
   const double size = mesh.size(), chord = std::max(spacing_mm, size / 24);
   const auto trial_on = [&](double h) {
     return Trial{surface, lines, outside, least_angle, h, mesh.area(), chords_across(mesh, h)};
@@ -206,7 +206,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   measure(found);
   const auto better = [&](const NetStart& a, const NetStart& b) { return rank(a) > rank(b); };
   std::ranges::stable_sort(found, better);
-  // one of each kind
+  // the best of each kind
   std::vector<NetStart> kinds;
   for (NetStart& one : found)
     if (kinds.size() < followed &&
@@ -231,8 +231,8 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
     }
   }
   std::ranges::stable_sort(kinds, better);
-  // each measured on the grid of the net itself, which decides where the coarse grid was mistaken
-  constexpr double mistaken = 0.05;  // of the area
+  // evaluates each on the grid of the net itself, which decides if the coarse grid was wrong
+  constexpr double mistaken = 0.05;  // fraction of the area
   const Trial last = trial_on(net_chord(mesh, spacing_mm));
   const auto fine = area_samples(mesh, last.chord);
   const double promised = Ranking::area_of(kinds.front());

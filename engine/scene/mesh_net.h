@@ -1,4 +1,4 @@
-// What a net reaches of a mesh, and where it is best begun.
+// The part of a mesh that a net reaches, and the best start of a net on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,50 +14,52 @@ namespace gridshell {
 /// A point of the mesh that represents its part of the area.
 struct AreaSample {
   Eigen::Vector3d at;
-  double area = 0;              ///< of the mesh's, 0 to 1
-  RodStop why = RodStop::none;  ///< it is left out
+  double area = 0;              ///< fraction of the mesh's area, 0 to 1
+  RodStop why = RodStop::none;  ///< why it is left out
 };
 
-/// Points on the triangles of a mesh, no further from one another than about `apart_mm`.
+/// Points on the triangles of a mesh, at distances of about `apart_mm` at most.
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm);
 
-/// Chord of the grid that a net is found on: an eighth of the rods' spacing, if the mesh is not too
-/// large for it, mm; and the number of chords that lead from any point to any other.
+/// Chord of the grid on which a net is computed, mm: an eighth of the rods' spacing, or more if the
+/// mesh is large.
 double net_chord(const TriangleMesh& mesh, double spacing_mm);
+/// Number of chords that lead from any point of the mesh to any other.
 int chords_across(const TriangleMesh& mesh, double chord_mm);
 
-/// Splits them into what a grid's rods reach, within a chord and on their side of every line, and
-/// the remaining ones, each with what ends the rods nearest to it; returns these.
+/// The samples that a grid's rods do not reach within a chord and on their side of every line; each
+/// with what ends the rods nearest to it.
 std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lines,
                                     const std::vector<AreaSample>& samples);
 
-/// A position and a direction from which a net is marched, and how far it comes.
+/// Position and direction of the start of a net, and what the net reaches.
 struct NetStart {
   NetPlace place;
-  double axis_deg = 0;         ///< of the u-axis from x, as seen from above
-  double reached = 0;          ///< of the area
-  double least_angle_deg = 0;  ///< between the rods
-  double seams = 0;            ///< where two parts of the net meet, a chord wide, over the area
+  double axis_deg = 0;         ///< angle of the u-axis from x, as seen from above
+  double reached = 0;          ///< fraction of the area
+  double least_angle_deg = 0;  ///< smallest angle between rods
+  double seams = 0;  ///< area of seams between parts of the net, a chord wide, over the area
 };
 
-/// The best start and the best of those a tenth of the mesh's size away or 20 degrees turned:
-/// nets on a coarse grid from positions spread over the mesh, each in six directions, the best of
-/// them moved and turned as long as more is reached, then measured on the net's own grid. Seams,
-/// where two parts of the net meet, count half against the area; of those that reach as much the
-/// one with the largest least angle is best. `by_angle`: that of all which reach 0.95 of the most.
+/// Finds the best start, and as the second the best one that is at least a tenth of the mesh's size
+/// away or rotated by 20 degrees. Nets on a coarse grid start from positions distributed over the
+/// mesh, each in six directions; the best starts are moved and rotated as long as that improves
+/// them, then evaluated on the net's own grid. A start is better if the net reaches more area, less
+/// half the area of its seams; of equal ones, if its smallest angle is larger. `by_angle`: the
+/// largest smallest angle counts among all that reach at most 0.05 of the area less than the most.
 /// Errors (bad_input): no position of the mesh faces up inside the boundary.
 Result<std::vector<NetStart>> best_starts(const Surface& surface, const TriangleMesh& mesh,
                                           const Barriers& lines, const Surface::Function& outside,
                                           double least_angle, double spacing_mm, bool by_angle);
 
-/// Where a net begins on a mesh, what it reaches and what not.
+/// Report of a net on a mesh: its start, what it reaches and what it leaves out.
 struct MeshNetReport {
-  std::vector<std::string> mended;  ///< what was done to make it one sheet, one sentence each
-  double fit_mm = 0;  ///< largest distance of a vertex from the smooth surface, and where
+  std::vector<std::string> mended;  ///< repairs of the mesh, one sentence each
+  double fit_mm = 0;  ///< largest distance of a vertex from the smooth surface, at `fit_at`
   Eigen::Vector3d fit_at = Eigen::Vector3d::Zero();
   NetStart start;
-  std::optional<NetStart> second;    ///< of a search
-  std::vector<AreaSample> left_out;  ///< of the mesh
+  std::optional<NetStart> second;    ///< the second best start of a search
+  std::vector<AreaSample> left_out;  ///< the parts of the mesh that the net does not reach
   std::vector<std::string> lines;    ///< "1 hole", "2 creases"
   struct Line {
     LineKind kind;
@@ -65,10 +67,10 @@ struct MeshNetReport {
   };
   std::vector<Line> drawn;  ///< rim, holes, creases
 
-  /// The parts of the area, by reason, the largest first.
+  /// Fractions of the area that are left out, by reason, the largest first.
   std::vector<std::pair<RodStop, double>> reasons() const;
-  /// A sentence each: what was mended, the fit, where it begins, what is reached, what is left out
-  /// and why.
+  /// One sentence each on repairs, the fit, lines of the mesh, start and reached area, the second
+  /// start, and what is left out and why.
   std::vector<std::string> sentences() const;
 };
 

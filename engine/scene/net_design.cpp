@@ -16,7 +16,7 @@
 namespace gridshell {
 namespace {
 
-/// Where the axis of a surface of revolution, or the row of blocks, runs along u + v and x.
+/// Axes with u + v along x, the axis of a surface of revolution or of a row of blocks.
 Eigen::Matrix<double, 3, 2> axes_along_x() { return axes_about(Eigen::Vector2d::UnitX()); }
 
 Result<NetDesign> cap(const preset::Net& requested) {
@@ -42,14 +42,14 @@ Result<NetDesign> half_revolution(const preset::Net& requested, Result<Profile> 
   TRY(domain, whole ? half_of_all(*net) : half_of(*net, requested.length_mm));
   design.net = net;
   design.domain = std::move(*domain);
-  // the axis runs along u + v, and C_y, y = u - v, towards -y of the world
+  // the axis is along u + v; the net's y = u - v is towards -y of the world
   design.flat.axes = axes_along_x();
   design.scale_mm = requested.kind == preset::NetKind::profile ? middle_r : requested.radius_mm;
   return design;
 }
 
-/// Where a rectangle of the plane meets the net, the boundary need not be plane: the flat footprint
-/// lies at its mean height, its diagonal along that of the two curves.
+/// A net of translation. The image of its rectangle need not be plane at the boundary: the flat
+/// footprint is at the boundary's mean height, with its diagonal along that of the two curves.
 Result<NetDesign> translation(const preset::Net& requested) {
   const Eigen::Matrix3Xd x = preset::matrix_of<3>(requested.curve_u),
                          y = preset::matrix_of<3>(requested.curve_v);
@@ -128,7 +128,8 @@ Result<ShapedSurface> surface_of(const preset::Net& requested, double spacing_mm
   return ShapedSurface{Surface(*function, spacing_mm), {}};
 }
 
-/// What may be the cause where a file's heights bear no net: their unit; or empty.
+/// A text on the likely cause if there is no net on a file's heights: their unit; empty: none is
+/// known.
 std::string likely_cause(const preset::SurfaceData& file, double spacing_mm) {
   const double width = file.empty() || file.is_mesh() ? NAN : file.x.back() - file.x.front();
   if (!(width < 2 * spacing_mm)) return "";
@@ -139,10 +140,11 @@ std::string likely_cause(const preset::SurfaceData& file, double spacing_mm) {
       width, spacing_mm);
 }
 
-/// F(x, y, z) = 0, z = h(x, y) or heights over a grid, from an apex where the surface faces up, as
-/// far as the boundary; the net's grid is an eighth of the rods' spacing. Errors (bad_input): an
-/// expression that does not parse, an apex off the surface or outside the boundary, and those of
-/// the net and its part. `so_far`, where given, is filled where the net ends too early.
+/// The net on F(x, y, z) = 0, z = h(x, y) or heights over a grid, from an apex where the surface
+/// faces up to the boundary; the net's grid is an eighth of the rods' spacing. If the net ends too
+/// early, `so_far` (may be null) is filled with its computed part. Errors (bad_input): an
+/// expression that does not parse, an apex that is not on the surface or outside the boundary, and
+/// those of the net and its part.
 Result<NetDesign> surface_design(const preset::Net& requested, double spacing_mm,
                                  PartialNet* so_far = nullptr) {
   TRY(shape, surface_of(requested, spacing_mm));

@@ -15,19 +15,21 @@
 
 namespace gridshell {
 
-/// A viable ansatz [Baek 2018]: a net C, the original boundary b with C(b) = a, and the position of
-/// the flat footprint in the plane of a, rotated as the net is.
+/// The design by a Chebyshev net [Baek 2018]: a net C, the original boundary b, which C maps to the
+/// actuated boundary a, and the position of the flat footprint in the plane of a, rotated as the
+/// net is.
 struct NetDesign {
   std::shared_ptr<const ChebyshevNet> net;
   std::unique_ptr<Domain> domain;
   FlatFrame flat;
   double scale_mm = 0;                          ///< rho
-  std::shared_ptr<const Assemblage> blocks;     ///< where the net is one of blocks
-  std::shared_ptr<const MeshNetReport> report;  ///< where it is on a mesh
+  std::shared_ptr<const Assemblage> blocks;     ///< building blocks of the net, if any
+  std::shared_ptr<const MeshNetReport> report;  ///< report of a net on a mesh
 };
 
-/// `spacing_mm`: d, finer than which nets on any surface are found. Errors (bad_input): what the
-/// net or its boundary cannot be, with where it folds or ends.
+/// The net of a preset's [net]. `spacing_mm`: d; nets on any surface are computed on a finer grid.
+/// Errors (bad_input): those of the net or its boundary, with the position at which the net folds
+/// or ends.
 Result<NetDesign> net_design(const preset::Net& net, double spacing_mm);
 
 // Building blocks of a preset, joined.
@@ -36,10 +38,10 @@ Result<NetDesign> net_design(const preset::Net& net, double spacing_mm);
 /// footprint. Errors (bad_input): those of the blocks' nets and of Assemblage::make.
 Result<NetDesign> block_design(const preset::Preset& preset);
 
-// What there is of the net of a preset that is refused.
+// The computed part of a net that is refused.
 
-/// Where the net of a preset, on any surface, ends before its boundary. Nothing: it does not, or
-/// something else is wrong.
+/// The part of the net of a preset, on any surface, that ends before its boundary. Empty if it
+/// reaches the boundary, or if there is another error.
 std::optional<PartialNet> refused_net(const preset::Preset& preset);
 
 }  // namespace gridshell

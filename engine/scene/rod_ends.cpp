@@ -20,7 +20,7 @@ RodEnd hold_of(const Scene& scene, Eigen::Index end) {
   return is_begin(end) ? rod_of(scene, end).begin : rod_of(scene, end).end;
 }
 
-/// Where along its rod the joint next to an end is.
+/// Position along its rod of the joint next to an end, mm.
 double next_joint(const Scene& scene, Eigen::Index end) {
   const FootprintRod& rod = rod_of(scene, end);
   return is_begin(end) ? rod.marks.front() : rod.marks.back();
@@ -51,8 +51,8 @@ Result<Eigen::Vector3d> tangent_at(const ChebyshevNet& net, Family family,
   return family == Family::u ? point->tangent_u : point->tangent_v;
 }
 
-/// Gives a scene other ends: legs of other lengths start from other edge points of the flat, far
-/// ends of tails go along with their edge points.
+/// Changes the ends of a scene. Legs of other lengths start from other edge points of the flat; far
+/// ends of tails move with their edge points.
 void apply_ends(const ShellEnds& ends, Scene& scene) {
   const ShellEnds before = ends_of(scene);
   if (scene.motion.end_far.size() > 0) scene.motion.end_far += ends.at - before.at;

@@ -13,7 +13,7 @@
 namespace gridshell {
 namespace {
 
-/// The diameter of a round rod as thick as a rod is drawn.
+/// Diameter with which a rod is drawn: a rectangular one as a round rod of equal area.
 double drawn_diameter_of(const preset::Rod& rod) {
   return rod.rectangular() ? 2 * std::sqrt(rod.width_mm * rod.thickness_mm / M_PI)
                            : rod.diameter_mm;
@@ -45,7 +45,7 @@ RodMaterial material_of(const preset::Rod& rod) {
     material.fibres.about_1 = material.fibres.about_2 =
         material.EI1 / (young_MPa * rod.modulus_mm3);
   }
-  // about the second, a tangent that turns downwards turns backwards
+  // the sign: a tangent that turns downwards turns backwards about the second director
   material.curvature = {rod.curvature_sideways_per_mm, -rod.curvature_per_mm};
   material.twist = rod.twist_rad_per_mm;
   material.as_drawn = rod.as_drawn;
@@ -58,7 +58,7 @@ double mass_t_per_mm(const preset::Rod& rod, const RodMaterial& material) {
   return 1e-12 * rod.density_kg_m3 * area;  // 1 kg/m^3 = 1e-12 t/mm^3
 }
 
-/// The rod of a table or, of a network, of its file.
+/// The properties of a rod: those of [rod] or [rod_v], or those in the file of a network.
 preset::Rod rod_of(const preset::Preset& preset, const FootprintRod& drawn) {
   if (drawn.number >= 0) return preset::rod_of_network(preset, drawn.number, drawn.reversed);
   return drawn.family == Family::v && preset.rod_v.differs ? preset.rod_v : preset.rod;
@@ -78,7 +78,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
       return wrong(fmt::format(
           "got a diameter of {:g} mm, expected above 0 and less than [footprint] spacing_mm = {:g}",
           row[2], preset.footprint.spacing_mm));
-    // of several rods on one line the first row belongs to the first rod
+    // if there are several rods on one line, the first row belongs to the first rod
     std::size_t at = 0;
     while (at < rods.size() &&
            (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
@@ -92,7 +92,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
   return rods;
 }
 
-/// How a rod runs through a joint as drawn.
+/// Tangent of a rod at a joint as drawn, not normalised: the mean of both sides at a corner.
 Eigen::Vector3d tangent_through(const FootprintRod& rod, int joint) {
   const auto at = std::ranges::find(rod.joints, joint) - rod.joints.begin();
   const double mark = rod.marks[std::size_t(at)], near = 1e-6 * (rod.span.end - rod.span.begin);
@@ -109,8 +109,8 @@ std::vector<std::vector<const FootprintRod*>> rods_at_joints(const Footprint& fo
   return rods;
 }
 
-/// Checks that rods connected at a joint cross there, and that an eccentricity joins two rods, from
-/// the one listed first in the file.
+/// Checks that rods connected by a law at a joint cross there, and that an eccentricity is between
+/// two rods; its sign counts from the rod that is first in the file.
 Result<void> check_crossings(Scene& scene) {
   Footprint& footprint = scene.footprint;
   const auto rods = rods_at_joints(footprint);
@@ -160,7 +160,7 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
       scene.rods.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
-  // the paper's joints, for rods of 0.254 mm; those of thick rods are as large as these need
+  // the paper's joints are for rods of 0.254 mm; thicker rods need larger ones
   scene.joint_diameter_mm = preset.joints.diameter_mm.value_or(std::max(3.0, 1.5 * deepest_mm));
   scene.joint_height_mm = preset.joints.height_mm.value_or(std::max(5.0, 1.5 * deepest_mm));
   scene.joint_mass_t = 1e-6 * preset.joints.mass_g;

@@ -1,4 +1,4 @@
-// From a preset's rods, joints and loads to those of the models.
+// The rods, joints and loads of a scene from those of its preset.
 #pragma once
 
 #include "engine/core/result.h"
@@ -7,16 +7,16 @@
 
 namespace gridshell {
 
-/// Gives a scene's footprint the preset's rods, joints and loads. Errors (bad_input): a load on a
-/// joint, a diameter of a rod that is not there.
+/// Sets the rods, joints and loads of a scene from its preset. Errors (bad_input): a load on a
+/// joint that does not exist, a diameter for a rod that does not exist.
 Result<void> put_rods(const preset::Preset& preset, Scene& scene);
 
 /// Sets the natural shapes of a network's rods, and the joints with laws of their own. Errors
 /// (bad_input): a law at a point where no rods are joined, rods that do not cross there.
 Result<void> put_laws(const preset::Preset& preset, Scene& scene);
 
-/// Gives every rod an edge centred on joints that connect rods by a law, now or after a step adds
-/// bolts.
+/// Marks the joints on which an edge of every rod is centred: those that connect rods by a law, now
+/// or after a step adds bolts.
 void centre_edges(const preset::Preset& preset, Scene& scene);
 
 }  // namespace gridshell

@@ -62,8 +62,7 @@ Result<void> build_curve(const preset::Preset& preset, Scene& scene) {
   return {};
 }
 
-/// Lets go of the ends on the end rings of a surface of revolution, but for those on its long
-/// edges.
+/// Frees the ends on the end rings of a surface of revolution, except those on its long edges.
 void free_rings(Scene& scene) {
   const double ring = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
   const double near = 1e-9 * scene.length_scale_mm;
@@ -78,8 +77,8 @@ void free_rings(Scene& scene) {
   }
 }
 
-/// Motion of ends with prescribed directions: from the flat state to the net's tangents, or without
-/// a net as they are drawn.
+/// Sets the prescribed directions of ends: from those in the flat to the net's tangents; without a
+/// net they remain as drawn. `ends`: (u, v) of the edge points.
 Result<void> hold_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
@@ -110,7 +109,7 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   scene.length_scale_mm = design->scale_mm;
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
-  // C maps the original boundary to the actuated one, the edge points too
+  // C maps the original boundary and the edge points to the actuated ones
   TRY(actuated, points_on(*scene.net, ring));
   TRY(held, points_on(*scene.net, ends));
   scene.original_boundary = scene.flat.all(ring);
@@ -121,7 +120,7 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   return {};
 }
 
-/// Footprint, boundary and motion, as the kind has them.
+/// Builds footprint, boundary and motion by the kind of the footprint.
 Result<void> build(const preset::Preset& preset, Scene& scene) {
   switch (preset.footprint.kind) {
     case preset::FootprintKind::circle:
@@ -149,7 +148,7 @@ int joint_at(const Footprint& footprint, int i, int j) {
   return found == footprint.joints.end() ? -1 : int(found - footprint.joints.begin());
 }
 
-/// Whether all joints keep rods' sections to their normal.
+/// Whether all joints resist spin of the rods' sections from the joint's normal.
 bool holds_sections(const Scene& scene) {
   const auto holds = [](const JointLaw& law) { return law.twist_Nmm > 0; };
   const auto& own = scene.rods.own_joints;

@@ -1,5 +1,5 @@
-// From a preset's values to what will be formed: footprint, rods, ends and the motion of the
-// boundary. Knows no solver.
+// The shell of a preset before it is computed: footprint, rods, ends and the motion of the
+// boundary.
 #pragma once
 
 #include <limits>
@@ -32,7 +32,7 @@ struct Scene {
   RodModel rod_model = RodModel::bend;     ///< rod model chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one per rod; 0: not known
   std::vector<double> strength_MPa;        ///< one per rod; empty: not known
-  double joint_mass_t = 0;                 ///< of each joint, in addition to its rods
+  double joint_mass_t = 0;                 ///< mass of each joint, in addition to its rods
   double rod_diameter_mm = 0;              ///< diameter in pictures
   std::vector<double> drawn_diameters_mm;  ///< one per rod, for round sections of the rods' areas
   std::vector<double> laths_mm;            ///< as in record::Layout
@@ -45,7 +45,7 @@ struct Scene {
   std::shared_ptr<const Assemblage> blocks;  ///< building blocks of the net, if any
   std::shared_ptr<const MeshNetReport> mesh_net;  ///< report of a net on a mesh
   bool from_net = false;               ///< whether the path starts at the net, at progress 1
-  bool drawn_in_space = false;         ///< whether it starts at the drawn shape, at progress 0
+  bool drawn_in_space = false;         ///< whether the path starts at the drawn shape, progress 0
   Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
   /// radius of a circular boundary
@@ -56,11 +56,11 @@ struct Scene {
   int base_edges = 4;  ///< edges per segment of the chosen meshes are this times a power of two
   int edges_per_segment = 0;  ///< the requested mesh; 0: chosen from the tolerance
   double load_step = 1;       ///< largest load step, as a factor of the usual one
-  double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
+  double tolerance = 1e-3;    ///< largest error of the joints, over length_scale_mm
   double memory_GB = 0;       ///< limit of the meshes' memory; 0: half of the machine's
   double max_strain = 1e-3;
   double max_bending_strain = 0, max_utilisation = 0;  ///< limits; 0: none
-  double joint_diameter_mm = 0, joint_height_mm = 0;   ///< of the joints' cylinders
+  double joint_diameter_mm = 0, joint_height_mm = 0;   ///< size of the joints' cylinders
   bool stops_at_contact = false;
   bool table = false;  ///< whether rods must not pass the plane of the flat footprint
   SnapDynamics snap;
@@ -78,7 +78,7 @@ struct Scene {
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
   }
-  /// Where a circular boundary has a radius; 1 where it stays as it is.
+  /// Progress at which a circular boundary has a radius; 1 if the boundary does not move.
   double progress_of_radius(double radius_mm) const {
     if (radius_begin_mm == radius_end_mm) return 1;
     return (radius_begin_mm - radius_mm) / (radius_begin_mm - radius_end_mm);
@@ -92,8 +92,8 @@ int joint_at(const Footprint& footprint, int i, int j);
 /// not define a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);
 
-/// The rods on the net that a scene was designed on, as points at most `step_mm` apart; none
-/// without a net.
+/// The rods on the net that a scene was designed on, as points at distances of at most `step_mm`;
+/// empty without a net.
 Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm);
 
 /// Builds the scene of a preset for shared ownership.

@@ -31,7 +31,7 @@ Result<Surface::Function> outside_of(const preset::Net& requested) {
 
 namespace {
 
-/// The apex on the surface. Where its z is left out it is the surface's own.
+/// The apex on the surface. If its z is left out, it is that of the surface.
 Result<Eigen::Vector3d> apex_of(const preset::Net& requested, const ShapedSurface& shape,
                                 double allowed_mm) {
   const Surface& surface = shape.surface;
@@ -51,7 +51,7 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& requested, const ShapedSurfac
     return invalid("[net] apex_mm lies far off the surface: {}{}", nearest.error().message,
                    shape.height ? "; without its z it is found" : "");
   const double off = (*nearest - apex).norm();
-  // flat triangles lie off the smooth surface
+  // flat triangles deviate from the smooth surface
   if (given.size() == 3 && off > allowed_mm)
     return invalid(
         "[net] apex_mm lies {:.3g} mm off the surface, whose nearest point is "
@@ -60,7 +60,7 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& requested, const ShapedSurfac
   return *nearest;
 }
 
-/// Where the axes leave to, on the surface at its apex.
+/// The directions of the net's axes on the surface at its apex.
 Result<NetPlace> place_of(const preset::Net& requested, const Surface& surface,
                           const Eigen::Vector3d& apex) {
   constexpr double steepest = 0.1;
@@ -73,7 +73,7 @@ Result<NetPlace> place_of(const preset::Net& requested, const Surface& surface,
   Eigen::Vector3d along = bent.axes.col(0);
   if (requested.axis == preset::NetAxis::x || bent.umbilic)
     along = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
-  // of two opposite directions the one towards +x
+  // the direction towards +x of the two opposite ones
   if (along.x() < 0) along = -along;
   const double turned = requested.axis_deg * std::numbers::pi / 180;
   return NetPlace{apex, Eigen::AngleAxisd(turned, up) * along, up, {}};

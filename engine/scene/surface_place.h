@@ -1,4 +1,4 @@
-// Where on a surface a preset's net lies, and how its flat footprint lies below it.
+// The position of a preset's net on a surface, and that of the flat footprint below it.
 #pragma once
 
 #include <functional>
@@ -14,35 +14,36 @@
 
 namespace gridshell {
 
-/// A surface, and its height where it has one; of a mesh the highest.
+/// A surface, and its height at (x, y) if it has one there; for a mesh the largest.
 struct ShapedSurface {
   Surface surface;
   std::function<std::optional<double>(double x, double y)> height;
 };
 
-/// Axes of the flat whose diagonal u + v runs along `diagonal`, of unit length.
+/// Axes of the flat, of unit length, with the diagonal u + v along `diagonal`.
 Eigen::Matrix<double, 3, 2> axes_about(const Eigen::Vector2d& diagonal);
 
-/// The function that `text` of the key `key` of [net] writes down.
+/// The function of the expression `text`, the value of `key` in [net]. Errors (bad_input): those of
+/// the expression.
 Result<Surface::Function> parsed(const char* key, const std::string& text);
 
-/// Below zero inside the boundary that [net] within or cut_mm gives; of a mesh without either it is
-/// so everywhere.
+/// A function that is below zero inside the boundary of [net] within or cut_mm; for a mesh without
+/// either it is below zero everywhere.
 Result<Surface::Function> outside_of(const preset::Net& requested);
 
-/// Where the preset says that the net begins and its axes leave to: on the surface, no further off
-/// than `allowed_mm`, and inside the boundary.
+/// The start of the net that the preset gives, and its axes. Errors (bad_input): an apex further
+/// from the surface than `allowed_mm`, or outside the boundary.
 Result<NetPlace> given_place(const preset::Net& requested, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm);
 
-/// Sets where the flat footprint of a net with a domain lies, and its scale: in the plane of the
-/// cut, or at the boundary's mean height, below the apex; as far to the right of the rods' diagonal
-/// as to its left.
+/// Sets position and scale of the flat footprint of a net with a domain: in the plane of the cut,
+/// or at the boundary's mean height, below the apex, with its diagonal along that of the rods
+/// there. Errors: those of the net.
 Result<void> lay_flat(const preset::Net& requested, const NetPlace& place, NetDesign& design);
 
-/// The net on a mesh: a smooth surface fitted to it, and the net marched over that from the apex,
-/// or from the best there is, as far as it comes. Errors (bad_input): a mesh that is no sheet, an
-/// apex off it, no rod that leaves it.
+/// The net on a mesh: a smooth surface is fitted to it, and the net is computed on that from the
+/// given apex or the best start, as far as it reaches. Errors (bad_input): a mesh that is no sheet,
+/// an apex that is not on it, no rod from the apex.
 Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm);
 
 }  // namespace gridshell

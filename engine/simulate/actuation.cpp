@@ -23,7 +23,7 @@ namespace {
 // flat state
 constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
 
-/// Back from the first state towards the flat; whether it came there.
+/// Follows the path from the first state back towards the flat one. Returns whether it got there.
 bool follow_back(EquilibriumPath& path, const BifurcationPolicy& leaving, const Watch& watch) {
   const NestedShell& shell = path.simulation.shell();
   const auto nearly_flat = parameter_of_shortening(shell.finest(), shell.motion(), flat_shortening);
@@ -121,7 +121,7 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
     if (rests || watch.cancelled()) {
       path.segments.clear();
       turn_to_seed(simulation, watch);
-      // nearer to the flat nothing happens any more
+      // nearer to the flat state there are no events
       follow_segment(path, to, {}, watch).from = 0;
       return;
     }
@@ -131,19 +131,20 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
   if (to >= first.state.t) follow_segment(path, to, {}, watch);
 }
 
-/// The segment on which a path parameter lies, if there is one.
+/// The segment that contains a path parameter, if there is one.
 std::optional<std::size_t> segment_at(const EquilibriumPath& path, double t) {
   for (std::size_t k = path.segments.size(); k-- > 0;) {
     const PathSegment& segment = path.segments[k];
     double end = segment.end();
-    // nearer to the flat than it was followed nothing happens any more
+    // nearer to the flat state than the segment was followed there are no events
     if (segment.back && segment.report.end == Outcome::reached) end = 0;
     if (std::min(segment.from, end) <= t && t <= std::max(segment.from, end)) return k;
   }
   return std::nullopt;
 }
 
-/// Whether straight rods lie in the flat without a force; its frame is then exact.
+/// Whether the rods have no natural curvature: the flat state then has no forces, and its frame is
+/// exact.
 bool rests_flat(const Scene& scene) {
   return !scene.drawn_in_space &&
          std::ranges::all_of(scene.rods.materials, [](const RodMaterial& material) {
@@ -243,14 +244,15 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       continue;
     }
     const auto segment = segment_at(*path, sample.t);
-    // what only a path past its last segment would have reached shows its end
+    // for a sample that the path did not reach, the end of its last segment is shown
     const bool past = !path->segments.empty() && sample.t > path->segments.back().end();
     if (!segment && !past) continue;
     sample.segment = segment.value_or(path->segments.size() - 1);
     samples.push_back(sample);
   }
   TRY_DO(sampler.all(samples));
-  // a path that ends on its segment back to the flat started at a larger progress
+  // the path ended at the first state if its last segment leads back to the flat one; the
+  // simulation is to be in the state of the last frame
   if (!samples.empty() && path->segments.back().back) certify_sample(*path, samples.back(), watch);
   return path;
 }

@@ -32,9 +32,9 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const LevelPlan& plan, std::string_view wanted_for,
                                                const Watch& watch, const RunContext& context = {});
 
-/// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where
-/// the path ends before a sample, the path's limit says why. Errors: as follow_actuation(), and
-/// the sink's.
+/// Passes frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. If the
+/// path ends before a sample, the path's limit gives the reason. Errors: as follow_actuation(), and
+/// those of the sink.
 Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
                                       Watch& watch, const RunContext& context = {});

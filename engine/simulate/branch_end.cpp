@@ -8,25 +8,25 @@
 namespace gridshell {
 namespace {
 
-constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
-constexpr double fraction_of_loads = 4;  // of the loads, what counts as the length scale of a move
+constexpr double locate_mm = 5e-3;       // prescribed displacement to which a limit is located
+constexpr double fraction_of_loads = 4;  // change over the loads that counts as the length scale
 
 }  // namespace
 
 void Event::extrapolate(const Location& other) {
   const double times = double(placed.edges) / other.edges;
   const double left = (placed.t - other.t) / (times * times - 1);
-  // the finest mesh decides about a limit, and the saved state is that mesh's
+  // a limit is that of the finest mesh, whose state is saved
   if (!is_limit()) t = placed.t + left;
   error = std::abs(left) + placed.located + other.located;
 }
 
-/// The branch ended between `good` and `next`: continues from the next equilibrium, along the
-/// states that are not stable, or not at all.
+/// The branch ended between `good` and `next`. The path continues from another equilibrium, or
+/// along unstable states if the scene has no imperfection, or it ends.
 Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedState& good) {
   const auto kind =
       how == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
-  // what is lost by the Hessian at the end of a step alone is not located yet, nor is a limit
+  // a loss of stability that only the Hessian at the end of a step shows is not located yet
   if (shell_.followed().t == next && kind == Event::Kind::stability_lost)
     bisect(next, good, [] { return true; });
   else if (scene_.stops_at_contact || scene_.limits_strength())
@@ -49,7 +49,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
     return watch_.cancelled() ? Outcome::cancelled : how;
   }
   if (auto limit = of_.beyond(limits_)) {
-    // the state past it would need longer or thinner rods, or room where others are
+    // the new equilibrium exceeds a limit: the path ends before the snap
     shell_.back_to(end_of_branch);
     if (limit->kind == Event::Kind::locked) limit->what = "past a snap";
     return end_before(std::move(*limit), event.t, end_of_branch);
@@ -70,15 +70,15 @@ void Simulation::Walk::keep_companion() {
     companion_ = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
 }
 
-/// Searches for an event of the path on the coarser mesh, from its last state before it. The path
-/// returns to its state, except for the loads.
+/// Searches for an event of the path on the coarser mesh, from that mesh's last state before it.
+/// The path's state does not change, except for the loads.
 void Simulation::Walk::confirm(Event& event) {
   const int companion = shell_.last() - 1;
   if (companion < 0) return;
   keep_companion();
   event.confirmed = false;
   if (!companion_) return;
-  constexpr double found_to = 5e-5;  // in the path parameter
+  constexpr double found_to = 5e-5;  // accuracy in the path parameter
   PathOptions options;
   options.spacing_mm = scene_.footprint.spacing;
   // the last step that was too long may be nearly twice the smallest
@@ -92,8 +92,8 @@ void Simulation::Walk::confirm(Event& event) {
   event.extrapolate({edges[std::size_t(companion)], path.point().t, found_to});
 }
 
-/// By how much the path parameter changes while the boundary moves by the length scale, or, where
-/// that is sooner, the loads by what they are.
+/// By how much the path parameter changes while the boundary moves by the length scale or, if that
+/// is sooner, the loads change by four times their size.
 double Simulation::Walk::parameter_scale(double t) const {
   const PinnedMotion& motion = shell_.motion();
   const double speed = motion.speed(t);
@@ -105,8 +105,8 @@ double Simulation::Walk::parameter_scale(double t) const {
   return std::min(boundary, fraction_of_loads * std::abs(motion.factor_at(motion.load, t)) / rate);
 }
 
-/// The equilibrium at `there`, past the event, from which the path continues; the path is at it
-/// then, or, if there is none, where it was lost.
+/// Searches for the equilibrium at `there`, past the event, from which the path continues. The path
+/// is then in that equilibrium or, if there is none, where the branch ended.
 bool Simulation::Walk::leave_to(double there, const PathPoint& last, Event& event,
                                 std::vector<TimedState>& moments) {
   moments.clear();
@@ -125,10 +125,10 @@ bool Simulation::Walk::leave_to(double there, const PathPoint& last, Event& even
   return false;
 }
 
-/// Whether the current state, past a loss of stability, lies on the branch that lost it and has
-/// regained it: between the two the shell is on another branch.
+/// Whether the current state, past a loss of stability, is on the branch that lost it and has
+/// regained it. Between the two the shell is on another branch.
 bool Simulation::Walk::skipped_a_branch(const PathPoint& last) {
-  constexpr double same_state = 1e-3;  // of d
+  constexpr double same_state = 1e-3;  // in units of d
   PathOptions options;
   options.spacing_mm = scene_.footprint.spacing;
   options.allow_unstable = true;
@@ -140,8 +140,8 @@ bool Simulation::Walk::skipped_a_branch(const PathPoint& last) {
          same_state * options.spacing_mm;
 }
 
-/// The branch ended: the next equilibrium a little further on, where it is far enough from the
-/// event to be found.
+/// Searches for the equilibrium after the end of a branch, first next to the event, then at larger
+/// distances. If it is on the branch that had ended, the search continues nearer to the event.
 bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   const PathPoint last = shell_.followed();
   const double sign = to_ > last.t ? 1 : -1;
@@ -149,7 +149,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
     const double there = last.t + sign * scales * parameter_scale(last.t);
     return sign * (there - to_) > 0 ? to_ : there;
   };
-  constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // of the scale
+  constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // in scales
   bool found = false;
   for (double beyond = nearest; !found && beyond < farthest && !watch_.cancelled(); beyond *= 2) {
     found = leave_to(at(beyond), last, event, moments);
@@ -173,9 +173,10 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   return true;
 }
 
-// ---- what ends it ----
+// ---- limits ----
 
-/// To how much in the path parameter a limit is located; where loads alone change nothing is moved.
+/// The error, in the path parameter, to which a limit is located. The second bound is for loads
+/// that change without a prescribed displacement.
 double Simulation::Walk::located_to() const {
   constexpr double of_loads = 1e-3;
   return std::min(locate_mm / std::max(shell_.reach_mm(), 1e-9), of_loads);

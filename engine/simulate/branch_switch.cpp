@@ -155,7 +155,7 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
 
 bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
                     const State& rest, const Watch& watch) {
-  // of the path parameter; a quarter of the distance is expected to remain there
+  // fraction of the interval of t; a quarter of the distance is expected to remain there
   constexpr double fraction = 1.0 / 16;
   const double near = last.t + fraction * (there - last.t);
   PathOptions options;

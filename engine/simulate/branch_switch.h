@@ -13,8 +13,8 @@
 
 namespace gridshell {
 
-/// How the scene's imperfection leaves a state that lost its stability. Drawn a joint, so it is the
-/// same on every mesh.
+/// The branch switch that the scene's imperfection chooses for a state that lost its stability. Its
+/// random direction is drawn joint by joint, so it is the same on every mesh.
 BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& model);
 
 /// The equilibrium that the shell reaches on its finest mesh after it lost its branch at `last`,

@@ -17,17 +17,17 @@ namespace {
 using record::ContactKind;
 using record::Contacts;
 
-constexpr int halvings = 5;  // of what is between two load steps
+constexpr int halvings = 5;  // of the interval between two load steps
 constexpr ContactKind kinds[] = {ContactKind::rods, ContactKind::joints, ContactKind::table};
 
-const char* words_of(ContactKind kind) {
+const char* end_text(ContactKind kind) {
   switch (kind) {
     case ContactKind::rods:
-      return "no rods";
+      return "rods no longer touch";
     case ContactKind::joints:
-      return "no joints";
+      return "joints no longer touch";
     case ContactKind::table:
-      return "no rod and the table";
+      return "no rod touches the table any longer";
   }
   return "";
 }
@@ -38,8 +38,8 @@ struct Point {
   Contacts contacts;
 };
 
-/// From `before`, where it is not so, to `after`, where it is: whether parts of a kind touch, or no
-/// longer touch.
+/// An interval of the path parameter. If parts of one kind touch at only one of its ends, they
+/// begin to touch, or separate, in it.
 class Bracket {
  public:
   Bracket(ContactKind kind, Point before, Point after)
@@ -47,7 +47,7 @@ class Bracket {
 
   bool begins() const { return after_.contacts.deepest(kind_) != nullptr; }
   bool changes() const { return begins() != (before_.contacts.deepest(kind_) != nullptr); }
-  /// By what touches at t.
+  /// Halves the interval several times, by the contacts at its middle.
   void halve(const std::function<Contacts(double t)>& contacts_at) {
     for (int k = 0; k < halvings; ++k) {
       const double middle = 0.5 * (before_.t + after_.t);
@@ -61,7 +61,7 @@ class Bracket {
     const record::Contact* first = after_.contacts.deepest(kind_);
     return {segment, t, error,
             first ? fmt::format("{} touch {}", text_of(*first, footprint), at(t, error))
-                  : fmt::format("{} touch any more {}", words_of(kind_), at(t, error))};
+                  : fmt::format("{} {}", end_text(kind_), at(t, error))};
   }
 
  private:
@@ -69,14 +69,14 @@ class Bracket {
   Point before_, after_;
 };
 
-/// Writhe of a closed polygon, one column a corner: the solid angles under which its edges see one
-/// another, over 2 pi [Klenin, Langowski 2000, method 1a].
+/// Writhe of a closed polygon, one column per corner: the sum of the signed solid angles of all
+/// pairs of edges, over 2 pi [Klenin, Langowski 2000, method 1a].
 double writhe_of(const Eigen::Matrix3Xd& corners) {
   const Eigen::Index count = corners.cols();
   double sum = 0;
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = i + 2; j < count; ++j) {
-      if (i == 0 && j + 1 == count) continue;  // neighbours see nothing of one another
+      if (i == 0 && j + 1 == count) continue;  // adjacent edges contribute nothing
       const Eigen::Vector3d a = corners.col(i), b = corners.col(i + 1), c = corners.col(j),
                             d = corners.col((j + 1) % count);
       const std::array<Eigen::Vector3d, 4> sides{
@@ -90,8 +90,8 @@ double writhe_of(const Eigen::Matrix3Xd& corners) {
   return sum / (2 * std::numbers::pi);
 }
 
-/// Twist over 2 pi plus writhe of a closed rod. It stays as it is unless the rod passes through
-/// itself, which changes it by 2 [Calugareanu 1961, Fuller 1971].
+/// Twist over 2 pi plus writhe of a closed rod. It changes only if the rod passes through itself,
+/// then by 2 [Calugareanu 1961, Fuller 1971].
 double linking_of(const Model& model, const Model::Rod& rod, const State& state) {
   double twist = 0;
   const auto add = [&](int number) {
@@ -108,15 +108,15 @@ double linking_of(const Model& model, const Model::Rod& rod, const State& state)
   return twist / (2 * std::numbers::pi) + writhe_of(corners);
 }
 
-/// A load step as it is shown, and the segment that it is of.
+/// A load step and its segment, in the order in which load steps are shown.
 struct Shown {
   std::size_t segment;
   const State* state;
   double t;
 };
 
-/// Where closed rods pass through themselves: no state on the path need show it, as a snap leads
-/// from one to the next.
+/// Finds where closed rods pass through themselves, by their linking numbers. No state on the path
+/// may show such a contact, if a snap leads past it.
 std::vector<ContactEvent> self_passages(const EquilibriumPath& path, const At& at) {
   const NestedShell& shell = path.simulation.shell();
   const Model& model = shell.model();
@@ -216,7 +216,7 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& 
     for (std::size_t k = 1; k < steps.size(); ++k) {
       const LoadStep &a = *steps[k - 1], &b = *steps[k];
       const bool smooth = goes_on_between(segment, segment.back ? b : a, segment.back ? a : b);
-      // the states of the branch around, two on each side
+      // load steps of the branch, up to two on each side
       std::vector<const PathPoint*> around;
       const auto same_branch = [&](std::size_t n, std::size_t next) {
         const LoadStep &first = *steps[segment.back ? next : n],

@@ -11,14 +11,14 @@
 namespace gridshell::simulate {
 namespace {
 
-/// The load_step that it lies in front of.
+/// The first load step at or past t.
 const LoadStep& load_step_after(const PathSegment& segment, double t) {
   for (const LoadStep& load_step : segment.load_steps)
     if (segment.sign() * (load_step.point.t - t) >= 0) return load_step;
   return segment.load_steps.back();
 }
 
-/// Whether no event lies between consecutive load steps, whatever their stability.
+/// Whether no event is between consecutive load steps, stable or not.
 bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
   const double sign = segment.sign(), from = sign * a.point.t, to = sign * b.point.t;
   return from < to && std::ranges::none_of(segment.report.events, [&](const Event& event) {
@@ -31,7 +31,7 @@ bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep
 }  // namespace
 
 bool at_event(const PathSegment& segment, double t) {
-  constexpr double times = 2;  // of an estimated error
+  constexpr double times = 2;  // estimated errors
   return std::ranges::any_of(segment.report.events, [t](const Event& event) {
     return !event.is_limit() && std::abs(t - event.t) <= times * event.error.value_or(0);
   });
@@ -63,6 +63,14 @@ const LoadStep& load_step_before(const PathSegment& segment, double t) {
   for (const LoadStep& load_step : segment.load_steps)
     if (segment.sign() * (t - load_step.point.t) >= 0) before = &load_step;
   return *before;
+}
+
+void PathSegment::free_states() {
+  for (LoadStep& step : load_steps) {
+    const double t = step.point.t;
+    step.point = {};
+    step.point.t = t;
+  }
 }
 
 bool EquilibriumPath::too_coarse() const {
@@ -113,7 +121,7 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   };
   const LoadStep &before = load_step_before(segment, t), &after = load_step_after(segment, t);
   const bool goes_on = on_one_branch(segment, before, after);
-  // between two states of one branch it is that branch's, stable or not
+  // between two load steps of one branch the state on that branch is meant, stable or not
   const bool inside = goes_on && t != before.point.t;
   Report report = path.simulation.sample(t, before, inside, watch, inside ? &after : nullptr);
   if (done(report)) return {report, t};
@@ -125,7 +133,7 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   if ((report.end == Outcome::unstable || report.end == Outcome::lost) && !goes_on)
     report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};
-  // or any equilibrium, which says what it is
+  // or any equilibrium; its certificate shows whether it is stable
   report = from(before, true);
   return {report, t};
 }
@@ -155,7 +163,7 @@ record::Limit limit_of(Outcome end) {
   return record::Limit::branch_lost;
 }
 
-/// How a segment ended before its end.
+/// A sentence on why a segment ended before its requested end.
 std::string how_it_ended(const PathSegment& segment, double max_strain, const At& at) {
   const Report& report = segment.report;
   const auto place = [&] {

@@ -29,6 +29,9 @@ struct PathSegment : PathRecord {
   double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
   double end() const { return load_steps.back().point.t; }
+  /// Frees the states of the load steps, nearly all memory of a path; its events, certificates and
+  /// parameters remain.
+  void free_states();
 };
 
 /// A position on the path at which parts of one kind begin to touch or separate.
@@ -46,12 +49,12 @@ struct EquilibriumPath {
   Simulation simulation;
   /// The segments in the order in which they were followed.
   std::vector<PathSegment> segments = {};
-  std::vector<PathSegment> earlier = {};  ///< of a push: the segments of the actuation before it
+  std::vector<PathSegment> earlier = {};  ///< for a push: segments of the actuation before it
   LevelPlan meshes = {};                  ///< mesh levels on which the path was followed
   bool single_motion = true;  ///< whether all segments belong to the current motion of `simulation`
   /// Time to build the meshes and the first state, s.
   double seconds_setup = 0;
-  /// What is not confirmed by a second mesh or misses the tolerance, a sentence; empty: nothing.
+  /// A sentence on what a second mesh does not confirm, or on a missed tolerance; empty: neither.
   std::string mesh_disagreement = {};
   bool tolerance_missed = false;  ///< whether an error is above the tolerance or not known
   /// Which limit ended the path, and the sentence that reports it; written by set_limit().
@@ -60,8 +63,8 @@ struct EquilibriumPath {
   /// Contacts along the path, written by contact_events().
   std::vector<ContactEvent> contacts = {};
 
-  /// Whether the path ended because its mesh is too coarse (LevelPlan::allowed_mm). What would
-  /// follow it is then not computed.
+  /// Whether the path ended because its mesh is too coarse (LevelPlan::allowed_mm). Later segments
+  /// are then not followed.
   bool too_coarse() const;
 };
 
@@ -69,20 +72,20 @@ struct EquilibriumPath {
 /// (3 x nodes of the finest mesh, mm).
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes);
 
-/// Whether it is not known on which side of an event, where the branch changes, a position lies:
-/// that of the event is known to its error. States there have no error estimate.
+/// Whether t is within twice the error of an event, where the branch changes: it is then not known
+/// on which side of the event t is. States there have no error estimate.
 bool at_event(const PathSegment& segment, double t);
 
 /// The stable load step of a path that is at no event and has the largest error estimate; null:
 /// none has one.
 const LoadStep* worst_load_step(const EquilibriumPath& path);
-/// Its estimate, mm, or NaN.
+/// Error estimate of worst_load_step(), mm; NaN: there is none.
 double worst_estimate_mm(const EquilibriumPath& path);
 
 /// The last load step that the segment passed before parameter t.
 const LoadStep& load_step_before(const PathSegment& segment, double t);
 
-/// Whether consecutive load steps a and b lie on the same branch: both are stable and no event lies
+/// Whether consecutive load steps a and b are on the same branch: both are stable, and no event is
 /// between them.
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b);
 
@@ -96,14 +99,14 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
 
 /// A requested sample of the path.
 struct PathSample {
-  int index = 0;  ///< of the frame, from 0
+  int index = 0;  ///< index of the frame, from 0
   /// Index in EquilibriumPath::segments.
   std::size_t segment = 0;
   double t = 0;         ///< path parameter
-  double progress = 0;  ///< of the experiment, from 0 to 1
+  double progress = 0;  ///< progress of the experiment, from 0 to 1
 };
 
-/// Whether t lies between the two branches of a snap, where neither may have a state.
+/// Whether t is between the two branches of a snap, where neither may have a state.
 bool within_snap(const PathSegment& segment, double t);
 
 /// How a sample was certified. `past`: the path parameter that the segment had reached when it
@@ -121,7 +124,8 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, 
 /// one is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
-/// Which of its two limits a path met that ended `locked`: the strain's, or a push's.
+/// Text on the limit that a path met which ended as `locked`: that of the strain, or that of the
+/// stiffness of a push.
 std::string text_of_locking(double largest_strain, double max_strain);
 
 /// Text of the frame in which a path ended at a limit; empty for another end.

@@ -1,5 +1,5 @@
-// From the meshes that the tolerance begins with and the time that one factorisation takes on this
-// machine.
+// The estimates are computed from the initial meshes of the tolerance and from the measured time of
+// one factorisation on this machine.
 
 #include "engine/simulate/expected_cost.h"
 
@@ -36,7 +36,7 @@ double unknowns_of(const Footprint& footprint, RodModel rod_model, int edges_per
   for (const FootprintRod& rod : footprint.rods) segments += double(rod.joints.size()) + 1;
   const double edges = segments * edges_per_segment;
   if (rod_model == RodModel::net) return 0;
-  // an edge brings a node, and joints, which two rods share, are counted twice
+  // each edge adds a node, but joints, which belong to two rods, are counted twice
   const double nodes = edges - double(footprint.joints.size());
   return 3 * nodes + (rod_model == RodModel::twist ? edges : 0);
 }
@@ -61,7 +61,7 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
   const double needed = memory_GB(scene.footprint, scene.rod_model, plan);
   if (given == 0 || needed <= given) return {};
   const int edges = plan.edges_per_segment.back();
-  // a drawing in metres with the spacing of a model
+  // the reason may be a drawing in metres with a spacing for a model
   const auto& rods = scene.footprint.rods;
   const bool many = rods.size() > 400 && rods.front().number < 0;
   return invalid(
@@ -89,7 +89,7 @@ struct UnitCost {
 
 UnitCost unit_cost(const Scene& scene, int edges) {
   constexpr int trials = 3;
-  // too large to try: as 96 and 192 rods take, measured on version 0.2
+  // a mesh too large to be measured takes as long as 96 and 192 rods per direction with version 0.2
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
   const double unknowns = unknowns_of(scene.footprint, scene.rod_model, edges);
   if (unknowns > large) return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
@@ -106,14 +106,14 @@ UnitCost unit_cost(const Scene& scene, int edges) {
     both.push_back(assembled - begin);
     factorisation.push_back(cpu_seconds_now() - assembled);
   }
-  // the first plans the factorisation; whatever else runs only adds
+  // the first trial also plans the factorisation, and other programs only add time
   const double factor = std::ranges::min(factorisation);
   return {std::max(0.0, std::ranges::min(both) - factor), factor};
 }
 
-/// Factorisations per mesh for a path on it, as measured on the shipped presets: from a net; out of
-/// the flat on branches that symmetry chooses; and on branches that the imperfection chooses, of
-/// which curves and nets have several.
+/// Number of factorisations per mesh for a path, as measured on the shipped presets: from a net;
+/// from the flat state on branches that symmetry chooses; and on branches that the imperfection
+/// chooses, of which curves and nets have several.
 double factorisations_of(const Scene& scene, const preset::Footprint& footprint) {
   constexpr double from_net = 50, from_flat = 75, chosen = 200, curves = 600, nets = 900;
   if (scene.from_net) return from_net;
@@ -134,7 +134,7 @@ int dof_of(const Scene& scene, int edges_per_segment) {
 
 double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   if (scene.rod_model == RodModel::net) return 0.01;
-  // all on a mesh of 4 edges per segment; measured with 8 to 20 rods
+  // seconds per unknown on a mesh of 4 edges per segment; measured with 8 to 20 rods
   constexpr double a_trial = 2.6e-5, a_barrier = 3.4e-4, ways_of_a_state = 7e-4;
   if (const preset::SearchSettings& jitter = preset.jitter; jitter.requested()) {
     const int barriers = jitter.barriers ? jitter.drawn * (jitter.drawn - 1) / 2 : 0;
@@ -152,7 +152,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
       tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
   // a chosen branch is confirmed on meshes of twice the edges; bolts and braces are added in
   // equilibrium, on new meshes
-  constexpr double build = 15;  // as many factorisations
+  constexpr double build = 15;  // takes as long as so many factorisations
   using Do = preset::StepKind;
   const auto builds = std::ranges::count_if(preset.step, [](const preset::Step& step) {
     return step.kind == Do::tighten || step.kind == Do::brace;
@@ -186,7 +186,7 @@ namespace {
 /// Largest curvature of an elastica of this length with hinges at distance `chord`: its modulus m
 /// by 2 E(m)/K(m) - 1 = chord/length, then 4 sqrt(m) K(m)/length.
 double elastica_curvature(double length, double chord) {
-  double low = 0, high = 0.999999;  // of the modulus' root
+  double low = 0, high = 0.999999;  // square root of the modulus
   for (int round = 0; round < 60; ++round) {
     const double k = 0.5 * (low + high);
     (2 * std::comp_ellint_2(k) / std::comp_ellint_1(k) - 1 > chord / length ? low : high) = k;
@@ -194,7 +194,7 @@ double elastica_curvature(double length, double chord) {
   return 4 * low * std::comp_ellint_1(low) / length;
 }
 
-/// Strain of a rod's fibres on the net, by the circles through three points next to each other.
+/// Largest strain of a rod's fibres on the net, by second differences of adjacent points.
 Result<double> strain_on_net(const Scene& scene, std::size_t r) {
   constexpr int parts = 64;
   const FootprintRod& rod = scene.footprint.rods[r];
@@ -218,7 +218,8 @@ Result<double> strain_on_net(const Scene& scene, std::size_t r) {
   return most;
 }
 
-/// Strain of a single rod between its prescribed ends, bent in its least stiff direction.
+/// Strain of a single rod between its prescribed ends, bent in its least stiff direction; 0 if its
+/// ends do not bend it.
 double strain_by_ends(const Scene& scene, std::size_t r) {
   const FootprintRod& rod = scene.footprint.rods[r];
   const auto held = [](RodEnd end) { return is_held(end) && end != RodEnd::sprung; };

@@ -1,5 +1,5 @@
-// What the meshes of a run take of the machine's memory and time, and how much it bends its rods,
-// worked out before any is built.
+// Expected memory and time of a run, and the expected bending of its rods, before any mesh is
+// built.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace gridshell {
 
-/// Gigabytes that a run on these meshes takes at most, all of them and their factors at a time.
+/// Largest memory of a run on these meshes, GB, for all of them and their factors together.
 double memory_GB(const Footprint& footprint, RodModel rod_model, const LevelPlan& plan);
 
 /// Checks the memory against [accuracy] memory_GB, by default half of the machine's. Errors:
@@ -23,7 +23,7 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan);
 
 namespace gridshell::simulate {
 
-/// Unknowns of the mesh with `edges_per_segment`; 0 if nothing is solved.
+/// Number of unknowns of the mesh with `edges_per_segment`; 0 if nothing is solved.
 int dof_of(const Scene& scene, int edges_per_segment);
 
 /// Seconds of one core on the initial meshes of the run. Shells with snaps, whose meshes are chosen
@@ -35,7 +35,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset);
 /// prescribed ends only the least possible. Empty: none, or rods with natural curvature.
 std::string expected_bending(const Scene& scene);
 
-/// Gigabytes of the whole program, its meshes taking `meshes_GB`.
+/// Memory of the complete program, GB, if its meshes take `meshes_GB`.
 double expected_GB(double meshes_GB, const preset::Preset& preset);
 
 }  // namespace gridshell::simulate

@@ -53,7 +53,7 @@ void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, 
   add(true, rod.end, rod.tail_end);
 }
 
-/// What a builder does of a step; empty for one that is none of building.
+/// A sentence on what a builder does in a step; empty if the step is not one of building.
 std::string hand_text(const preset::Step& step, const Scene& scene) {
   if (step.kind == preset::StepKind::tighten)
     return fmt::format(

@@ -15,13 +15,13 @@
 namespace gridshell {
 namespace {
 
-constexpr double least_shortening = 1e-3;  // of rods that buckle
-constexpr int choosing_edges = 4;  // a segment, of the mesh that finds the first buckled state
+constexpr double least_shortening = 1e-3;  // mean shortening from which rods buckle
+constexpr int choosing_edges = 4;          // per segment, on the mesh that chooses the branch
 
 /// The dome of the seed in equilibrium with the bend model; of mirror images the requested one.
 Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                            double t, const Scene& scene, const Watch& watch) {
-  constexpr double clearly_mm = 1e-3;  // that one diagonal lies lower
+  constexpr double clearly_mm = 1e-3;  // differences of the diagonals below this do not count
   auto first = first_buckled(system, mesh, motion, t, scene.seed, scene.flat, watch);
   const auto lower = [&](const State& state) {
     return scene.seed.diagonal * lower_on_diagonal(mesh, nodes_of(mesh, system.model(), state.x));
@@ -64,7 +64,8 @@ Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, co
   return minimise_from(shell.system(), std::move(state), watch);
 }
 
-/// Hinges whose rods lie along one another have no plane to turn in. Errors: bad_input.
+/// Checks that no joint with a hinge is closed: if its rods are parallel, they have no plane to
+/// turn in. Errors: bad_input.
 Result<void> check_open(const NestedShell& shell, const Scene& scene, const State& rest) {
   constexpr double least = 1e-4;  // rad
   const auto& hinges = shell.model().hinges;
@@ -109,7 +110,7 @@ bool begins_as_drawn(const Scene& scene, const RodMesh& mesh, const PinnedMotion
 
 Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
                              const Watch& watch) {
-  // rods that have axes or a shape of their own lie there as they are
+  // the bend model would ignore section axes and natural shapes of rods
   auto rest = scene.solved_model() == RodModel::twist
                   ? drawn_rest(shell.system(), shell.finest(), shell.motion(), 0, scene, watch)
                   : chosen(drawn_rest, shell, scene, rods, 0, watch);

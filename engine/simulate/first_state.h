@@ -1,4 +1,4 @@
-// The first state of a path: a buckled state out of the flat, the equilibrium next to a net, or the
+// The first state of a path: a buckled state of a flat grid, the equilibrium next to a net, or the
 // equilibrium of a drawn network, in space or under loads alone.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace gridshell {
 
-/// By how much the joints far out on y = -x lie higher than those on y = x, mm; nodes: joints
-/// first.
+/// By how much the joints near the diagonal y = -x are higher than those near y = x, mm; joints far
+/// from the centre count most. `nodes`: joints first.
 double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
 
 /// The seed's buckled state in equilibrium on the coarsest mesh at t. Every rod model and mesh

@@ -60,7 +60,7 @@ Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Ass
 
 namespace {
 
-/// What acts on every node of the model, N.
+/// External forces on all nodes of the model, N.
 Eigen::Matrix3Xd acting_on(const Model& model, const Eigen::Matrix3Xd& x,
                            const ExternalLoads& outside) {
   Eigen::Matrix3Xd acting = Eigen::Matrix3Xd::Zero(3, model.nodes);
@@ -88,7 +88,7 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::
   std::vector<int> place(std::size_t(mesh.nodes()), -1);
   for (std::size_t k = 0; k < supports.size(); ++k) place[std::size_t(supports[k])] = int(k);
   Eigen::Matrix3Xd loads = acting(Eigen::all, supports);
-  // between two supports as a beam does
+  // distributes the forces between two supports as a beam does
   const auto hand_on = [&](std::size_t r, std::size_t from, std::size_t to) {
     const auto& s = mesh.position[r];
     for (std::size_t k = from + 1; k < to; ++k) {
@@ -126,11 +126,11 @@ Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
   return forces;
 }
 
-// ---- what rods bear ----
+// ---- forces and stress along rods ----
 
 namespace {
 
-/// Where on a rod a point lies: "u+3, 45.00 mm from its start, at joint [0, 1]".
+/// Text on the position of a point on a rod: "u+3, 45.00 mm from its start, at joint [0, 1]".
 std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
                          std::size_t point) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -190,21 +190,21 @@ class Bending {
   std::vector<double> curvature_, over_length_, strain_;
 };
 
-/// Points of a rod that are no ghosts.
+/// Number of nodes of a rod without its ghosts.
 std::size_t points_of(const RodMesh& mesh, std::size_t rod) {
   return std::size_t(
       std::ranges::count_if(mesh.rods[rod], [&](int node) { return !mesh.is_ghost(node); }));
 }
 
-/// Where a point lies, of all points of all rods in order.
+/// Text on the position of a point, counted over the points of all rods in order.
 std::string place_of(const Footprint& footprint, const RodMesh& mesh, std::size_t point) {
   std::size_t r = 0;
   while (point >= points_of(mesh, r)) point -= points_of(mesh, r++);
   return place_on_rod(footprint, mesh, r, point);
 }
 
-/// Stress of a fibre at every point, E (|N|/EA + strain by bending), and the largest; N of the
-/// stronger edge there.
+/// Writes the largest stress of a fibre at every point, E (|N|/EA + bending strain), and the
+/// largest of all. N is the larger axial force of the two edges at the point.
 void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
                 const std::vector<double>& strain, record::Frame& frame) {
   frame.stress_MPa.resize(Eigen::Index(strain.size()));
@@ -257,7 +257,7 @@ void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const
               const Assembly& at, record::Frame& frame) {
   std::vector<double> force;
   Bending bending(model, state, at);
-  // what closes rings comes last
+  // bends that close rings are the last ones
   int closing = int(model.bends.size());
   for (const Model::Rod& rod : model.rods) closing -= rod.closed;
   for (const Model::Rod& rod : model.rods) {

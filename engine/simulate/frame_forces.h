@@ -12,7 +12,8 @@
 
 namespace gridshell::simulate {
 
-/// The edge point of an end, or where it is joined that joint.
+/// The node of rod end `k` (2 r at the start of rod r, 2 r + 1 at its end): its edge point, or the
+/// joint to which it is joined.
 int end_node(const RodMesh& mesh, int k);
 
 /// Nodes that may be constrained: joints, edge points, far ends of tails.
@@ -23,30 +24,31 @@ std::vector<int> supports_of(const RodMesh& mesh);
 Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
                               const std::vector<Constraint>& holds);
 
-/// What acts from outside in a state at `x`, N, on the supports: forces between two of them are
-/// handed on to both as a beam does, so that the sum is that of all. Empty: nothing acts. Rods that
-/// close without a joint are left out.
+/// External forces in a state at `x`, N, on the nodes that supports_of() lists: forces between two
+/// of them are distributed to both as by a beam, so that the sum is that of all forces. Empty:
+/// there are none. Rods that close without a joint are left out.
 Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& x,
                           const ExternalLoads& outside);
 
-/// Axial forces of the braces along both diagonals of every cell, N; NaN: there is none. Empty:
-/// nothing is braced.
+/// Axial forces of the braces along both diagonals of every cell, N; NaN: there is no brace. Empty:
+/// the shell has none.
 Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
                              const Eigen::Matrix3Xd& x);
 
 /// Cross-section area of the solid section with this fibre reach, mm^2.
 double area_of(const FibreReach& fibres);
 
-/// Whether all that bends is strained as it is curved (FibreReach).
+/// Whether the bending strain of all rods follows from their curvature alone (FibreReach), without
+/// axes of a section and clamped ends.
 bool strains_by_curvature(const Model& model);
 
-/// The largest strain by bending and stress, and where they are. `strain`: of all points, rod after
-/// rod; the frame's axial forces are known.
+/// Writes the largest bending strain and stress, and where on the rods they are. `strain`: bending
+/// strain at all points, rod after rod. The frame must have its axial forces.
 void put_strains(const Scene& scene, const RodMesh& mesh, const Model& model,
                  const std::vector<double>& strain, record::Frame& frame);
 
-/// Writes forces, curvature, bending and stress along the rods of an equilibrium on one mesh, with
-/// the forces at it. Ends without a prescribed direction have no moment.
+/// Writes forces, curvature, bending and stress along the rods of an equilibrium on one mesh. `at`:
+/// the forces in this state. Ends without a prescribed direction have no moment.
 void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const State& state,
               const Assembly& at, record::Frame& frame);
 

@@ -22,7 +22,7 @@ std::vector<int> joints_with_angles(const RodMesh& mesh, const Bolts& now) {
   return joints;
 }
 
-/// Values of a mesh as columns, in the first row.
+/// Values of one mesh as the first row of a matrix, for certify_vectors().
 Eigen::Matrix3Xd columns_of(const std::vector<double>& values) {
   Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, Eigen::Index(values.size()));
   for (std::size_t k = 0; k < values.size(); ++k) columns(0, Eigen::Index(k)) = values[k];
@@ -94,7 +94,7 @@ std::string text_of_joints(const record::Frame& frame) {
       fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
                   frame.joint_angle_deg, frame.smallest_joint_angle_deg,
                   frame.largest_joint_angle_deg, frame.joint_torque_Nmm);
-  // of one mesh none is known
+  // the errors of a single mesh are not known
   if (std::isfinite(frame.joint_angle_error_deg))
     text += fmt::format(" (errors to {:.2g} degrees on average, {:.2g} of a joint, {:.2g} N mm)",
                         frame.joint_angle_error_deg, frame.one_angle_error_deg,

@@ -19,7 +19,7 @@ namespace gridshell::simulate {
 namespace {
 
 constexpr int most_frames_in_motion = 24;
-constexpr double still_move = 0.01;  // of d: nearer to the equilibrium no motion is seen
+constexpr double still_move = 0.01;  // in d: motion nearer to the equilibrium is not visible
 
 Eigen::VectorXd curvature(const Simulation& simulation, int level) {
   const NestedShell& shell = simulation.shell();
@@ -41,10 +41,11 @@ Eigen::Vector3d normal_on(const Footprint& footprint, const NestedShell& shell, 
 /// K of the cells in bins of x/L, L the half-span of the actuated boundary and x from its middle,
 /// at the nodes x; rows: bins, columns: mean, deviation, cells.
 Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
-  // an assemblage need not lie about the origin
+  // the centre of an assemblage need not be the origin
   if (K.size() == 0) return {};
   const auto ends = scene.actuated_boundary.row(0);
   const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
+  if (!(L > 0)) return {};
   Eigen::VectorXd along(K.size());
   for (Eigen::Index k = 0; k < K.size(); ++k) {
     const auto& joints = scene.footprint.cells[std::size_t(k)].joints;
@@ -68,7 +69,7 @@ void put_reactions(Eigen::Matrix3Xd reactions, record::Frame& frame) {
   frame.reactions_N = std::move(reactions);
 }
 
-/// Energies of a mesh and their sum, a column each.
+/// Energies of a mesh and their sum, one per column.
 Eigen::Matrix3Xd columns_of(const Energies& energies) {
   Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, Energies::size + 1);
   for (const TermName& term : energy_terms) columns(0, long(term.term)) = energies[term.term];
@@ -76,7 +77,8 @@ Eigen::Matrix3Xd columns_of(const Energies& energies) {
   return columns;
 }
 
-/// Reactions and energies of the last meshes; what lies along the rods is of the finest itself.
+/// Writes reactions and energies by the last meshes; values along the rods are those of the finest
+/// mesh.
 void put_forces(const Simulation& simulation, record::Frame& frame) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
@@ -320,8 +322,8 @@ record::Frame flat_frame(Simulation& simulation) {
   frame.boundary_radius_mm = scene.radius_begin_mm;
   put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
-  // what stores nothing is at a least energy, whatever sign rounding gives the pivots of laths that
-  // turn about themselves
+  // a state without energy is a minimum, whatever sign round-off gives the pivots of laths that can
+  // rotate about their axes
   constexpr double nothing_mJ = 1e-15;
   if (std::abs(frame.energies.total()) < nothing_mJ) frame.negative_pivots = 0;
   simulation.restore(before);
@@ -330,7 +332,7 @@ record::Frame flat_frame(Simulation& simulation) {
 
 namespace {
 
-/// the moments to show
+/// The moments to show.
 std::vector<const TimedState*> shown(const std::vector<TimedState>& all, double spacing) {
   std::size_t end = all.size();
   while (end > 1 &&
@@ -346,21 +348,19 @@ std::vector<const TimedState*> shown(const std::vector<TimedState>& all, double 
 
 }  // namespace
 
-std::vector<record::Frame> frames_in_motion(Simulation& simulation,
+std::vector<record::Frame> frames_in_motion(Simulation& simulation, double t,
                                             const std::vector<TimedState>& moments) {
   std::vector<record::Frame> frames;
   if (moments.empty()) return frames;
   const Scene& scene = simulation.scene();
   NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.finest();
-  const MeshTransfer to_finest(mesh, shell.finest());
   Linearisation& system = shell.system();
+  shell.motion().apply_loads(system, t);
   for (const TimedState* moment : shown(moments, scene.footprint.spacing)) {
     const Eigen::Matrix3Xd nodes = nodes_of(mesh, shell.model(), moment->state.x);
-    Eigen::Matrix3Xd x;
-    to_finest.nodes(nodes, x);
     record::Frame frame;
-    fill_shape(scene, shell.finest(), x,
+    fill_shape(scene, mesh, nodes,
                cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)),
                frame);
     system.gradient_at(moment->state);

@@ -1,4 +1,4 @@
-// What a certified state leaves in the record.
+// Frames, layouts and summaries of certified states for the record.
 #pragma once
 
 #include "engine/preset/preset.h"
@@ -8,29 +8,29 @@
 
 namespace gridshell::simulate {
 
-/// What a summary says before anything is solved: the preset, its model and why, rods, joints,
-/// cells.
+/// The part of a summary that is known before anything is solved: the preset, its model and why,
+/// rods, joints, cells.
 record::Summary summary_before(const preset::Preset& preset, const Scene& scene);
 
-/// Ends of rods that are ball joints, since their joints have no law, in a network where other
-/// joints have one: a sentence; empty: none.
+/// A sentence on ends of rods that are ball joints, since their joints have no law, in a network
+/// where other joints have one; empty: there are none.
 std::string ends_on_balls(const Scene& scene);
 
-/// What the shell is made of, on a mesh: rods, joints and their sizes, and a table.
+/// The parts of the shell on a mesh: rods, joints and their sizes, and a table.
 record::Layout parts_of(const Scene& scene, const RodMesh& mesh);
 
 /// "u+3": a rod by its family and its index in it.
 std::string name_of(const FootprintRod& rod);
 
-/// "rods u+3 and v-1 at (10.0, 2.5, 48.1) mm": which parts touch, and where.
+/// Text on which parts touch, and where: "rods u+3 and v-1 at (10.0, 2.5, 48.1) mm".
 std::string text_of(const record::Contact& contact, const Footprint& footprint);
 
-/// What of a run does not change: the nodes of `mesh` (ghosts are no part of it), the net, the
-/// boundaries. Errors: those of the net.
+/// The layout of a run, all that does not change: the nodes of `mesh` (without ghosts), the net,
+/// the boundaries. Errors: those of the net.
 Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);
 
-/// What a shape says by itself: positions of the mesh's nodes without ghosts, K of the cells and
-/// its bins along x, height.
+/// Writes what depends on the shape alone: positions of the mesh's nodes without ghosts, K of the
+/// cells and its bins along x, height.
 void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                 const Eigen::VectorXd& K, record::Frame& frame);
 
@@ -39,10 +39,10 @@ void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd&
 /// progress, boundary, push and event.
 record::Frame frame_of(const Simulation& simulation);
 
-/// The largest stress of a fibre over its rod's strength, on the finest mesh; NaN where that is not
-/// known.
+/// The largest stress of a fibre over its rod's strength, on the finest mesh; NaN if the strength
+/// is not known.
 double utilisation_of(const Simulation& simulation);
-/// Utilisation of an equilibrium on one mesh, stress over strength, with the forces at it.
+/// Utilisation, stress over strength, of an equilibrium on one mesh. `forces`: those of this state.
 double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                       const State& state, const Assembly& forces);
 
@@ -50,22 +50,22 @@ double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& mode
 /// have the state; zero where no two rods cross.
 Eigen::Vector3d joint_normal(const Footprint& footprint, const NestedShell& shell, int joint);
 
-/// What follows from a frame's nodes, K, reactions and curvature on the finest mesh.
+/// Writes what follows from a frame's nodes, K, reactions and curvature on the finest mesh.
 void complete_shape(const Simulation& simulation, const record::Contacts& contacts,
                     record::Frame& frame);
 
-/// Frame of an equilibrium on one mesh that is not the state of a simulation, with the forces at
-/// it.
+/// Frame of an equilibrium on one mesh that is not the state of a simulation. `forces`: those of
+/// this equilibrium.
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                        const State& state, const Assembly& forces);
 
 /// The flat footprint as a frame at progress 0; straight rods are exact on any mesh.
 record::Frame flat_frame(Simulation& simulation);
 
-/// Frames of what moved in time during a snap, evenly in time until nothing is seen to move, at
-/// most 24: positions, energies, K and the unbalanced force; pivots and error are not known,
-/// `event` says "in motion".
-std::vector<record::Frame> frames_in_motion(Simulation& simulation,
+/// Frames of a snap in time under the loads at path parameter t, at most 24, evenly distributed
+/// until no motion is visible: positions, energies, K and the unbalanced force. Pivots and error
+/// are not known; `event` is "in motion".
+std::vector<record::Frame> frames_in_motion(Simulation& simulation, double t,
                                             const std::vector<TimedState>& moments);
 
 }  // namespace gridshell::simulate

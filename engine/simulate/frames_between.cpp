@@ -14,9 +14,11 @@
 namespace gridshell::simulate {
 namespace {
 
-constexpr double fraction_of_tolerance = 0.1;  // that a polynomial in t may leave
-constexpr double fraction_of_errors = 0.5;     // of those of the meshes, likewise
-constexpr double fraction_of_colour = 5e-3;    // of the largest curvature, likewise
+// largest error of a polynomial in t: over the tolerance, over the errors of the meshes, and over
+// the largest curvature (for colours)
+constexpr double fraction_of_tolerance = 0.1;
+constexpr double fraction_of_errors = 0.5;
+constexpr double fraction_of_colour = 5e-3;
 constexpr std::size_t most_knots = 6;
 
 bool smooth(const PathSegment& segment, std::size_t k) {
@@ -80,7 +82,7 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
   return Window{k, first, last};
 }
 
-/// At the load steps of a window; none: one of them has none.
+/// The knots at the load steps of a window; empty if there is no stable state at one of them.
 FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const Window& window) {
   Knots knots;
   for (std::size_t k = window.first; k <= window.last; ++k) {
@@ -92,7 +94,8 @@ FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const W
   return knots;
 }
 
-/// At quarters between two load steps, those with them; none: one of them has none.
+/// The knots at the two load steps around a sample and at quarters between them; empty if there is
+/// no stable state at one of them.
 FramesBetween::Knots FramesBetween::knots_between(const PathSegment& segment,
                                                   const Window& window) {
   const std::size_t k = window.before;
@@ -143,7 +146,7 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   return frame;
 }
 
-/// Nothing: it is in doubt by more than is allowed.
+/// The frame interpolated at t; empty if its estimated error is larger than allowed.
 std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots) const {
   using record::Frame;
   if (knots.size() < 3) return {};
@@ -194,7 +197,7 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   frame.reactions_N = sum(weights.all, &Frame::reactions_N);
   nodes_mm += doubt(&Frame::nodes, [](const auto& x) { return max_column_norm(x); });
   const double mJ = doubt(&Frame::energies, of_energies), N = doubt(&Frame::reactions_N, largest);
-  // as much as the meshes leave is not seen
+  // an error below those of the meshes does not count
   const auto seen = [&](double off, double size, double Frame::*error) {
     return !(off <= std::max(fraction * size, fraction_of_errors * around(error)));
   };
@@ -206,7 +209,13 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
     return {};
   frame.nodes += nodes->leftCols(frame.nodes.cols());
   frame.cell_K = curvature(*nodes) + sum(weights.all, &Frame::cell_K);
-  frame.loads_N = sum(weights.all, &Frame::loads_N);
+  // a load step without a load has no column
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    const Eigen::Matrix3Xd& at_knot = knots[k]->frame.loads_N;
+    if (at_knot.cols() == 0) continue;
+    if (frame.loads_N.cols() == 0) frame.loads_N.setZero(3, at_knot.cols());
+    frame.loads_N += weights.all[Eigen::Index(k)] * at_knot;
+  }
   frame.axial_force_N = sum(weights.all, &Frame::axial_force_N);
   frame.brace_force_N = sum(weights.all, &Frame::brace_force_N);
   frame.bending_mJ_per_m = sum(weights.all, &Frame::bending_mJ_per_m).cwiseMax(0);

@@ -36,7 +36,8 @@ class FramesBetween {
   std::optional<record::Frame> at(const PathSample& sample);
 
  private:
-  /// A solved state and its frame, with nodes and K of the corrections from coarser meshes.
+  /// A solved state and its frame. Nodes and K of the frame are only the corrections from coarser
+  /// meshes.
   struct Knot {
     NestedPathPoint point;
     record::Frame frame;
@@ -45,7 +46,7 @@ class FramesBetween {
   /// Weights of a polynomial in t at one parameter.
   struct Weights {
     Eigen::VectorXd all;
-    Eigen::VectorXd without[2];  ///< less those without the first, the last of its knots
+    Eigen::VectorXd without[2];  ///< less the weights without the first [0], the last [1] knot
   };
   /// Load steps: the one in front of a sample, and those of its branch around it.
   struct Window {
@@ -65,7 +66,8 @@ class FramesBetween {
   const Watch& watch_;
   record::ContactSearch contacts_;
   bool requested_;
-  // by load step of the segment and quarter to the next; nothing: there is no stable state
+  // key: load step of the segment, and quarter from there to the next one; empty value: there is no
+  // stable state
   std::map<std::pair<std::size_t, int>, std::optional<Knot>> known_;
   std::size_t segment_ = 0;
 };

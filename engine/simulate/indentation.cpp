@@ -46,10 +46,10 @@ At at_depth(double depth_mm) {
   };
 }
 
-/// Position of the limit point of the lost path, found by arc length.
+/// Text on the limit point of the path that was lost, found by arc length; empty: none was found.
 std::string turning_back(Simulation& simulation, const PathSegment& segment, const Event& event,
                          double depth_mm, const Watch& watch) {
-  // the last one before the snap: the event's parameter may be extrapolated past later steps
+  // the last load step before the snap: the event's parameter may be extrapolated past later steps
   const LoadStep* last = nullptr;
   for (const LoadStep& load_step : segment.load_steps) {
     if (event.to && load_step.point.t == *event.to) break;
@@ -149,7 +149,7 @@ Caption caption_of(const HeldShell& pushed, bool unload) {
           }};
 }
 
-/// Where on the push a frame's progress lies.
+/// The sample of the push at a frame's progress.
 PathSample sample_of(std::size_t index, double progress, bool unload) {
   if (!unload) return {int(index), 0, progress, progress};
   const bool back = progress > 0.5;
@@ -241,6 +241,7 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   HeldShell held{std::move(*actuated), *push, std::move(before)};
   held.earlier = std::exchange(held.segments, {});
+  for (PathSegment& segment : held.earlier) segment.free_states();
   Constraint hold{push->joint};
   if (requested.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
   const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);

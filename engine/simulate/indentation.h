@@ -20,14 +20,14 @@ Result<void> not_on_boundary(const Footprint& footprint, int joint);
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints);
 
-/// What a preset pushes, and where to: the joint, and its whole displacement along the normal, the
-/// net's or that of the unloaded shell.
+/// The push of a preset: the joint, and its complete displacement along the normal of the net, or
+/// of the unloaded shell if there is no net.
 struct PushOf {
   int joint = 0;
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
 };
 
-/// For the unloaded shell. Errors (bad_input) as pushed_joint().
+/// The push of a preset on an unloaded shell. Errors (bad_input) as pushed_joint().
 Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
                        const NestedShell& shell);
 

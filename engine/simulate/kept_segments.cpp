@@ -108,7 +108,8 @@ void put(auto& in, Is<SegmentBegin> auto& s) { all(in, s.state, s.from, s.to, s.
 void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }
 void put(auto& in, Is<Softness> auto& s) { all(in, s.t, s.stiffness); }
 void put(auto& in, Is<KeptSegment> auto& s) {
-  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.softening);
+  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.softening, s.unmeasured_since,
+      s.companion);
 }
 
 template <class T>

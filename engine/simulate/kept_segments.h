@@ -12,11 +12,11 @@
 
 namespace gridshell::simulate {
 
-/// Where a segment begins and where to: what must be the same for a kept one to serve.
+/// Start and requested end of a segment: a saved segment is used only if they are equal.
 struct SegmentBegin {
   std::uint64_t state = 0;  ///< checksum of the nodes
   double from = 0, to = 0;  ///< path parameter
-  std::vector<int> edges;   ///< between two joints, of its meshes
+  std::vector<int> edges;   ///< edges per segment of its meshes
 
   bool operator==(const SegmentBegin&) const = default;
 };
@@ -29,19 +29,24 @@ struct Softness {
 /// A segment as far as it was followed.
 struct KeptSegment {
   SegmentBegin begin;
-  std::optional<Outcome> end;  ///< none: it was cut short
+  std::optional<Outcome> end;  ///< empty: it was interrupted
   NestedState state;           ///< state reached
   PathRecord record;
   std::vector<Event> events;
   Effort effort;
   std::vector<Softness> softening;
+  /// Path parameter since which no coarser mesh has a state; empty: one has.
+  std::optional<double> unmeasured_since;
+  /// Last state of the next coarser mesh on this branch; time: its path parameter.
+  std::optional<TimedState> companion;
 };
 
-/// The files of a folder, `segment_0000` and on. What cannot be written is followed again. A file
-/// that is damaged, or whose segment begins elsewhere, is as good as none.
+/// The files of a folder, `segment_0001` and following. A segment is followed again if its file
+/// could not be written, is damaged, or has another start or end.
 class KeptSegments {
  public:
-  /// What takes less than `worth_s` to follow is not worth a file; 0: everything is, at any cost.
+  /// Between two files at least `worth_s` pass, and 20 times the time that writing takes; 0: every
+  /// load step is saved.
   explicit KeptSegments(std::filesystem::path folder, double worth_s = 2);
 
   /// The next segment of the run, if a part of it was saved.
@@ -58,7 +63,7 @@ class KeptSegments {
   std::filesystem::path folder_;
   double worth_s_, wait_s_, written_at_;  // seconds_now()
   int segments_ = 0;
-  bool has_file_ = false;  // the segment that was begun last
+  bool has_file_ = false;  // whether the segment that was started last has a file
 };
 
 }  // namespace gridshell::simulate

@@ -12,7 +12,7 @@ namespace {
 
 int edges_of(const EquilibriumPath& path) { return path.meshes.edges_per_segment.back(); }
 
-/// Whether an event of a segment lies near a path parameter: meshes may differ there.
+/// Whether an event of a segment is near a path parameter: meshes may differ there.
 bool near_event(const PathSegment& segment, double t) {
   return std::ranges::any_of(segment.report.events, [&](const Event& event) {
     const auto [from, to] = std::minmax({event.placed.t, event.t, event.to.value_or(event.t)});
@@ -28,8 +28,8 @@ std::optional<std::string> not_confirmed(const PathSegment& segment, int compani
   for (const LoadStep& step : segment.load_steps) {
     if (!step.stability_confirmed && !near_event(segment, step.point.t))
       return fmt::format(
-          "stability at path parameter {:.3f}: the lowest stiffness there differs by more than "
-          "itself from that of {} edges per segment",
+          "stability at path parameter {:.3f}: the lowest stiffness there is smaller than its "
+          "difference from that of {} edges per segment",
           step.point.t, companion);
     const bool last = &step == &segment.load_steps.back();
     if (std::isnan(step.certificate.error_estimate_mm) && step.certificate.stable() &&
@@ -40,24 +40,17 @@ std::optional<std::string> not_confirmed(const PathSegment& segment, int compani
   return std::nullopt;
 }
 
-std::optional<std::string> disagreement(const PathSegment& a, const PathSegment& b) {
-  const auto &seen = a.report.events, &found = b.report.events;
-  if (seen.size() != found.size())
-    return fmt::format("{} and {} losses of the branch", seen.size(), found.size());
-  const auto apart = [](double s, double t) {
-    return std::abs(s - t) > mesh_tolerances.same_event;
+/// Whether two segments have the same events, near each other, to the same end.
+bool agree(const PathSegment& a, const PathSegment& b) {
+  const auto near = [](double s, double t) {
+    return std::abs(s - t) <= mesh_tolerances.same_event;
   };
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    const bool limit = seen[k].is_limit() || found[k].is_limit();
-    if ((limit && seen[k].kind != found[k].kind) ||
-        seen[k].to.has_value() != found[k].to.has_value())
-      return "events of another kind";
-    if (apart(seen[k].t, found[k].t))
-      return fmt::format("path parameters {:.3f} and {:.3f} of an event", seen[k].t, found[k].t);
-  }
-  if (apart(a.end(), b.end()))
-    return fmt::format("ends at path parameters {:.3f} and {:.3f}", a.end(), b.end());
-  return std::nullopt;
+  const auto same = [&](const Event& seen, const Event& found) {
+    const bool limit = seen.is_limit() || found.is_limit();
+    return (!limit || seen.kind == found.kind) && seen.to.has_value() == found.to.has_value() &&
+           near(seen.t, found.t);
+  };
+  return std::ranges::equal(a.report.events, b.report.events, same) && near(a.end(), b.end());
 }
 
 /// Where the largest error is; next to a loss of stability a state moves most with the parameter.
@@ -106,21 +99,14 @@ std::optional<std::string> not_confirmed(const EquilibriumPath& path) {
   return std::nullopt;
 }
 
-std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
-                                             const EquilibriumPath& fine) {
-  for (const auto segments : {&EquilibriumPath::earlier, &EquilibriumPath::segments}) {
-    const auto &a = coarse.*segments, &b = fine.*segments;
-    if (a.size() != b.size()) return "another path from the flat state";
-    for (std::size_t k = 0; k < a.size(); ++k)
-      if (auto found = disagreement(a[k], b[k])) return found;
-  }
+bool meshes_agree(const EquilibriumPath& coarse, const EquilibriumPath& fine) {
+  if (!std::ranges::equal(coarse.earlier, fine.earlier, agree) ||
+      !std::ranges::equal(coarse.segments, fine.segments, agree))
+    return false;
   if (coarse.segments.empty() || coarse.segments.back().end() != fine.segments.back().end())
-    return std::nullopt;  // both ended early, at states of their own
-  const double apart = distance_of_joints(coarse.simulation, fine.simulation.nodes()),
-               d = coarse.simulation.scene().footprint.spacing;
-  if (apart > mesh_tolerances.same_state * d)
-    return fmt::format("ends at a distance of {:.3g} mm", apart);
-  return std::nullopt;
+    return true;  // both ended early, at states of their own
+  return distance_of_joints(coarse.simulation, fine.simulation.nodes()) <=
+         mesh_tolerances.same_state * coarse.simulation.scene().footprint.spacing;
 }
 
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
@@ -148,8 +134,8 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       if (missing) found.mesh_disagreement = *missing;
       return path;
     }
-    // two meshes that follow one another agree
-    if (missing && coarse && !coarse->too_coarse() && !mesh_disagreement(*coarse, found)) {
+    // two consecutive meshes agree
+    if (missing && coarse && !coarse->too_coarse() && meshes_agree(*coarse, found)) {
       extrapolate_events(coarse->segments, found.segments);
       extrapolate_events(coarse->earlier, found.earlier);
       return path;
@@ -161,7 +147,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       return path;
     }
     if (too_coarse && (!next || !fits)) {
-      // what can be had is kept, and what is missed is said
+      // the path is followed on the finest possible mesh, with a report of what it misses
       plan.allowed_mm = std::numeric_limits<double>::infinity();
       coarse = nullptr;
       auto last = follow(plan, watch);
@@ -182,8 +168,12 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       return last;
     }
     if (!too_coarse) ++doublings;
+    // only the events and the end of a coarser path are compared
     found.simulation.shell().free_memory();
-    coarse = std::move(*path);
+    for (auto* segments : {&found.earlier, &found.segments})
+      for (PathSegment& segment : *segments) segment.free_states();
+    // of a longer type what is compared
+    coarse = std::make_shared<EquilibriumPath>(std::move(found));
     plan = *next;
     plan.allowed_mm = allowed;
   }
@@ -199,8 +189,9 @@ std::string why_so_fine(const EquilibriumPath& path) {
       fmt::format("the error estimate is {:.1g} of the tolerance, as ", worst / allowed);
   if (edges_of(path) > initial_levels(scene).edges_per_segment.back())
     return over + "coarser meshes do not have the events or states that finer ones have";
-  return over + (path.meshes.extrapolate ? "coarser meshes leave more than it, as a rule"
-                                         : "on fewer meshes the error would not be known");
+  return over + (path.meshes.extrapolate
+                     ? "the error of coarser meshes is usually above the tolerance"
+                     : "on fewer meshes the error would not be known");
 }
 
 }  // namespace gridshell::simulate

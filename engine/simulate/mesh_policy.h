@@ -1,11 +1,11 @@
-// Choice of the mesh on which a path is followed, and when it is fine enough. Nothing else decides
-// it.
+// Choice of the mesh on which a path is followed, and when it is fine enough. It is made only here.
 //
-//   k from the tolerance: the path is followed on k edges per segment, and the coarser meshes k/2
-//   and k/4 give the error estimate (solve/nested_shell.h);
-//   twice the edges, if an error estimate is above the tolerance, if an event of k is missing on
-//   the coarser mesh, or if the coarser mesh has no state near the fine one; enough, if none of
-//   this applies, or if two consecutive meshes agree; else `doubt` reports what is not confirmed.
+//   1. The tolerance gives the number k of edges per segment. The path is followed on this mesh.
+//      The meshes of k/2 and k/4 edges give the error estimate (solve/nested_shell.h).
+//   2. The edges are doubled if an error estimate is above the tolerance, if an event is missing on
+//      the coarser mesh, or if the coarser mesh has no state near the fine one.
+//   3. The mesh is fine enough if none of this applies, or if two consecutive meshes agree; else
+//      `doubt` reports what is not confirmed.
 #pragma once
 
 #include <functional>
@@ -65,13 +65,12 @@ auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& w
       .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
 }
 
-/// What a path's finest mesh and the next coarser one disagree on, a sentence; empty: they agree.
+/// A sentence on what a path's finest mesh and the next coarser one disagree on; empty: they agree.
 std::optional<std::string> not_confirmed(const EquilibriumPath& path);
 
-/// Compares two paths on different meshes: empty if they have the same segments with the same
-/// events, near each other, to the same end; else a sentence on the difference.
-std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
-                                             const EquilibriumPath& fine);
+/// Whether two paths on different meshes have the same segments with the same events, near each
+/// other, to the same end.
+bool meshes_agree(const EquilibriumPath& coarse, const EquilibriumPath& fine);
 
 /// Why a path is on finer meshes than its tolerance needs; empty: it is not.
 std::string why_so_fine(const EquilibriumPath& path);

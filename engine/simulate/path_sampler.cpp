@@ -92,7 +92,7 @@ Result<void> PathSampler::take_current(const PathSample& sample, std::string eve
 Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample, std::string event,
                                   double past) {
   frame.event = std::move(event);
-  // of some steps only the end is known
+  // the frame before all steps belongs to no segment
   if (sample.segment < path_.segments.size() && at_event(path_.segments[sample.segment], sample.t))
     frame.error_estimate_mm = frame.force_error_N = frame.push_error_N = frame.energy_error_mJ =
         frame.stiffness_error_N_per_mm = record::unknown;
@@ -102,7 +102,7 @@ Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample,
 }
 
 Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
-  // with frames of a snap in between, all are counted
+  // if there may be frames of snaps between the samples, all frames are counted
   frame.index = path_.simulation.scene().snap.requested ? taken_ : sample.index;
   frame.progress = sample.progress;
   caption_.place(frame, sample.t, sample.progress);
@@ -111,7 +111,7 @@ Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
   return sink_.take(std::move(frame));
 }
 
-/// Frames of snaps that the segment came past since the sample before.
+/// Passes the frames of the snaps of the segment since the previous sample.
 Result<void> PathSampler::motions(const PathSample& sample, double past) {
   const PathSegment& segment = path_.segments[sample.segment];
   if (!last_ || last_->segment != sample.segment) next_snap_ = 0;
@@ -120,11 +120,11 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
     const PathRecord::Snap& snap = segment.snaps[next_snap_];
     const double landed = segment.load_steps[snap.before + 1].point.t;
     if (segment.sign() * (past - landed) < 0) break;
-    // these frames move the simulation
+    // frames_in_motion() assembles other states in the simulation
     if (!here) here = path_.simulation.save();
     PathSample there = sample;
     there.t = landed;
-    for (record::Frame& frame : frames_in_motion(path_.simulation, snap.moments))
+    for (record::Frame& frame : frames_in_motion(path_.simulation, landed, snap.moments))
       if (auto taken = take(std::move(frame), there); !taken) return taken;
   }
   if (here) path_.simulation.restore(*here);
@@ -138,7 +138,7 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
   double before = segment.back ? segment.end() : segment.from;
   if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
-  // snaps come first: what a frame's text begins with is what it is marked by
+  // snaps come first, as pictures mark a frame by the start of its text
   for (const bool jump : {true, false}) {
     std::string places;
     for (const Event& event : segment.report.events) {

@@ -1,4 +1,4 @@
-// Frames of a path, one per sample, handed to a sink in order.
+// Frames of a path, one per sample, passed to a sink in order.
 #pragma once
 
 #include <functional>
@@ -26,28 +26,30 @@ struct Caption {
   std::function<void(record::Frame&, double t, bool between)> measure;
 };
 
-/// Certifies samples of a path, in the order in which they are shown, with what happened between
-/// them: frames of snaps that were followed in time, events.
+/// Certifies samples of a path, in the order in which they are shown, and adds what happened
+/// between them: events, and frames of snaps that were followed in time.
 class PathSampler {
  public:
-  /// `count`: of the samples to come, for the progress.
+  /// `count`: number of samples, for the reported progress.
   PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
               std::size_t count);
 
-  /// The samples in order. Where the path ended at a limit before a sample, the state at that limit
-  /// is the last frame; what else the path did not reach has no frame. The simulation is then in
-  /// the state in which it was. Errors: cancelled, the sink's.
+  /// Passes the frames of the samples in order. If the path ended at a limit before a sample, the
+  /// state at that limit is the last frame; other samples that the path did not reach have no
+  /// frame. Afterwards the simulation is in the same state as before. Errors: cancelled, those of
+  /// the sink.
   Result<void> all(const std::vector<PathSample>& samples);
-  /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
-  /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
+  /// Passes the frame of one sample. Returns false if the sample cannot be certified. This becomes
+  /// the path's limit or, within a snap that already is the limit, is added to its reason. Errors:
+  /// cancelled, those of the sink.
   Result<bool> at(const PathSample& sample);
-  /// The current state of the simulation as a frame, with an event of its own; `past`: as in
+  /// Passes the current state of the simulation as a frame with the text `event`; `past`: as in
   /// CertifiedSample.
   Result<void> take_current(const PathSample& sample, std::string event, double past,
                             int newton_iterations = 0);
-  /// What happened to the segment since the sample before, in words; empty: nothing.
+  /// Text on the events of the segment since the previous sample; empty: there are none.
   std::string events(const PathSample& sample, double past) const;
-  /// A frame made elsewhere.
+  /// Passes a frame that was computed by the caller.
   Result<void> take(record::Frame frame, const PathSample& sample);
 
  private:
@@ -62,7 +64,7 @@ class PathSampler {
   Watch& watch_;
   std::size_t count_, next_snap_ = 0;
   std::optional<PathSample> last_;
-  double last_reached_t_ = 0;  ///< of the last sample, as of CertifiedSample
+  double last_reached_t_ = 0;  ///< CertifiedSample::past of the last sample
   int taken_ = 0;
 };
 

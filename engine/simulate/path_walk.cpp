@@ -9,27 +9,27 @@
 namespace gridshell {
 namespace {
 
-constexpr double push_step = 0.02;       // of the length scale: the largest load step
-constexpr double actuation_step = 0.05;  // in the path parameter
+constexpr double push_step = 0.02;       // largest load step of a push, over the length scale
+constexpr double actuation_step = 0.05;  // largest load step of an actuation, in t
 // branches left on one path; rods in contact slip past each other repeatedly
 constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
 }  // namespace
 
 void StabilityStepControl::take(const NestedState& state) {
-  if (known_.size() > 1) known_.erase(known_.begin());
   known_.push_back({state.t, state.lowest_eigenvalue});
-  largest_ = std::fmax(largest_, state.lowest_eigenvalue);
 }
 
 bool StabilityStepControl::near_zero() const {
-  constexpr double low = 0.25;  // of the largest of the branch
-  return !known_.empty() && known_.back().stiffness < low * largest_;
+  constexpr double low = 0.25;  // over the largest stiffness of the branch
+  double largest = 0;
+  for (const simulate::Softness& one : known_) largest = std::fmax(largest, one.stiffness);
+  return !known_.empty() && known_.back().stiffness < low * largest;
 }
 
 double StabilityStepControl::shortened(double step) const {
   if (known_.size() < 2) return step;
-  const auto &before = known_[0], &now = known_[1];
+  const auto &before = known_.end()[-2], &now = known_.back();
   const double fall = (before.stiffness - now.stiffness) / std::abs(now.t - before.t);
   // also where a stiffness is not known
   if (!(fall > 0)) return step;
@@ -84,7 +84,7 @@ void Simulation::Walk::tell() const {
   if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
 }
 
-/// Notes a load step from which the path continues.
+/// Records the current state as a load step from which the path continues.
 void Simulation::Walk::keep() {
   note();
   tell();
@@ -95,7 +95,7 @@ void Simulation::Walk::keep() {
     record_->load_steps.back().stability_confirmed = shell_.stability_confirmed(watch_);
 }
 
-// ---- what an earlier run kept of it ----
+// ---- segments saved by an earlier run ----
 
 /// Whether an earlier run saved this segment or its start; the shell then has the state saved
 /// there.
@@ -112,11 +112,14 @@ bool Simulation::Walk::goes_on() {
   static_cast<PathRecord&>(*record_) = std::move(segment_.record);
   events_ = segment_.events;
   softening_.know(segment_.softening);
+  unmeasured_since_ = segment_.unmeasured_since;
+  companion_ = segment_.companion;
   const bool stays = std::ranges::any_of(events_, [](const Event& event) {
     return event.kind == Event::Kind::stability_lost && !event.to;
   });
   shell_.allow_unstable(leaving_.through_unstable || stays);
   shell_.back_to(segment_.state);
+  note_return();
   tell();
   return true;
 }
@@ -130,18 +133,20 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
   segment_.softening = softening_.known();
-  // lent, as it may be large
+  segment_.unmeasured_since = unmeasured_since_;
+  segment_.companion = companion_;
+  // moved there and back, not copied, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
   kept_->keep(segment_);
   std::swap<PathRecord>(segment_.record, *record_);
 }
 
-// ---- how it steps ----
+// ---- load steps ----
 
 Outcome Simulation::Walk::step() {
   if (watch_.cancelled()) return Outcome::cancelled;
   const double left = to_ - now(), longest = softening_.shortened(of_.load_step());
-  // where the path itself needs short steps, its load steps are no much longer ones
+  // where the path follower needs short steps, load steps are at most eight times shorter, too
   const double step = std::clamp(shell_.state().step, longest / 8, longest);
   const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
   const double next = steps == 1 ? to_ : now() + left / steps;
@@ -156,12 +161,16 @@ Outcome Simulation::Walk::step() {
 
 Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
   if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), next, good);
-  if (from_beyond_ && !of_.beyond_limits()) {
-    limits_ = of_.limits();
-    from_beyond_ = false;
-  }
+  note_return();
   keep();
   return too_coarse() ? Outcome::too_coarse : Outcome::reached;
+}
+
+/// Whether a path that started past a limit has returned: the limit then applies as usual.
+void Simulation::Walk::note_return() {
+  if (!from_beyond_ || of_.beyond_limits()) return;
+  limits_ = of_.limits();
+  from_beyond_ = false;
 }
 
 /// Whether the path need not be followed further on this mesh: its error estimate is above the

@@ -10,15 +10,15 @@
 
 namespace gridshell {
 
-/// Follows the stiffness of the lowest mode from load step to load step. A
-/// branch may lose its stability and regain it within one step, and the shell would have left it
-/// in between: where the stiffness heads for zero, steps become short enough to see that.
+/// Shortens load steps where the stiffness of the lowest mode decreases towards zero. A branch may
+/// lose its stability and regain it within one step, while the shell would have left it in between:
+/// the steps become short enough to detect that.
 class StabilityStepControl {
  public:
-  /// After a load step that was certified.
+  /// Adds a load step that was certified.
   void take(const NestedState& state);
   /// Clears the history of the path, which continues from another state.
-  void forget() { known_.clear(), largest_ = 0; }
+  void forget() { known_.clear(); }
   /// The load step to take instead of `step`, at least an eighth of it.
   double shortened(double step) const;
   /// Whether the last stiffness is low enough for its error by the mesh to matter.
@@ -28,11 +28,10 @@ class StabilityStepControl {
   void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
 
  private:
-  std::vector<simulate::Softness> known_;  // at the last two load steps
-  double largest_ = 0;                     // stiffness of this branch
+  std::vector<simulate::Softness> known_;  // at the load steps of this branch
 };
 
-/// One segment of the path: how it steps, what it leaves, what ends it.
+/// Follows one segment of the path: its load steps, its events, and the limit that ends it.
 class Simulation::Walk {
  public:
   Walk(Simulation& of, double to, const BifurcationPolicy& leaving, PathRecord* record,
@@ -56,6 +55,7 @@ class Simulation::Walk {
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
   Outcome end_at(Event limit);
   Outcome end_before(Event limit, double bad, const NestedState& good);
+  void note_return();
   bool too_coarse();
   double located_to() const;
   double parameter_scale(double t) const;
@@ -74,14 +74,14 @@ class Simulation::Walk {
   BifurcationPolicy leaving_;
   PathRecord* record_;
   const Watch& watch_;
-  // a state that starts past a limit may return, and goes no further past it
+  // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
   bool from_beyond_ = of_.beyond_limits().has_value();
   StabilityStepControl softening_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
   std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
-  // of a saved segment, as it was after the last step
+  // the segment that is saved, as it was after the last step
   simulate::KeptSegments* kept_ = record_ ? of_.context_.segments.get() : nullptr;
   simulate::KeptSegment segment_;
   Effort effort_before_;

@@ -25,8 +25,8 @@ namespace gridshell::simulate {
 
 namespace {
 
-/// What a gridshell's joints are away from their net, as a rule and over rho: caps of a sphere with
-/// pinned ends lie within 0.032 of it.
+/// Typical largest distance of a gridshell's joints from their net, over rho: that of caps of a
+/// sphere with pinned ends is at most 0.032.
 constexpr double net_error = 0.032;
 
 constexpr int edges_per_segment = 4;  // for the pictures of the rods between joints
@@ -44,7 +44,7 @@ record::Frame frame_at(const Scene& scene, const RodMesh& mesh, int index, doubl
   return frame;
 }
 
-/// from the net's own tangents
+/// K of the cells by the net's own tangents.
 Result<Eigen::VectorXd> curvature_of(const Scene& scene) {
   JointTangents tangents;
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
@@ -79,7 +79,7 @@ Result<RodMesh> write_net_frames(const Scene& scene, const std::vector<double>& 
   return mesh;
 }
 
-/// From 0 to 1, both among them.
+/// Equidistant values of the progress from 0 to 1, both included; at least two.
 std::vector<double> evenly(int frames) {
   std::vector<double> progress;
   for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
@@ -99,7 +99,7 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   }
   if (preset.movie.frames == 1) return {1.0};
   std::vector<double> progress = evenly(preset.movie.frames);
-  // a flat grid rises by the square root of how much it is shortened
+  // the height of a buckled flat grid grows as the square root of its shortening
   if (preset.movie.pace == preset::Pace::height)
     for (double& one : progress) one *= one;
   return progress;
@@ -159,7 +159,7 @@ std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
   if (!path.single_motion || !simulation.holds().empty()) return "";
-  constexpr double not_told_apart = 0.02;  // of d
+  constexpr double not_told_apart = 0.02;  // in units of d
   double least = scene.tolerance * scene.length_scale_mm / 4;
   if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
     least = 2 * error;
@@ -167,8 +167,8 @@ std::string near_image(const EquilibriumPath& path) {
   if (!(off < not_told_apart * scene.footprint.spacing)) return "";
   return fmt::format(
       "the state lies {:.2g} mm from its own image under a symmetry of the shell, "
-      "further than its error: it is one of several that nearly coincide, found by "
-      "chance, or finer meshes (a smaller [accuracy] tolerance) have it symmetric",
+      "more than its error: either several states nearly coincide and it is one of them by chance, "
+      "or on finer meshes (a smaller [accuracy] tolerance) it is symmetric",
       off);
 }
 
@@ -180,13 +180,16 @@ std::string late_on_branch(const EquilibriumPath& path) {
     for (const Event& event : segment.report.events)
       if (path.single_motion && !event.jump && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
-            "of the branch that leaves the path at progress {:.4f} no state was found before "
-            "progress {:.4f}: which of several it is may depend on the mesh",
+            "a branch bifurcates from the path at progress {:.4f}, and its first state was found "
+            "at "
+            "progress {:.4f}: if several branches bifurcate there, which one it is may depend on "
+            "the "
+            "mesh",
             progress_at(event.t), progress_at(*event.to));
   return "";
 }
 
-/// What was followed, and on which meshes.
+/// Writes how the path was followed, and on which meshes, into the summary.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
   s.edges_per_segment = shell.plan().edges_per_segment.back();
@@ -216,7 +219,7 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
   return s;
 }
 
-/// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.
+/// Checks that the boundary's motion makes a flat grid buckle at all. Errors: bad_input.
 Result<void> check_motion(const Scene& scene) {
   if (scene.from_net || scene.drawn_in_space || scene.rod_model == RodModel::net) return {};
   MeshLevel flat;
@@ -246,7 +249,8 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   return sentences;
 }
 
-/// Refuses a first step that would open joints, as drawn, past what they can.
+/// Refuses a first step that would open joints of the drawn network to angles that they cannot
+/// have.
 Result<void> check_opening(const preset::Preset& preset, const Scene& scene) {
   if (!opens_as_drawn(preset.step, scene)) return {};
   const auto bolts = bolts_as_drawn(preset.step.front(), scene.footprint);
@@ -277,9 +281,8 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
 std::string not_in_the_flat(const EquilibriumPath& path) {
   const Scene& scene = path.simulation.scene();
   std::string text =
-      "rods with natural curvature have no equilibrium in the flat, where all frames were "
-      "requested "
-      "for: ask for one nearer to the actuated boundary";
+      "rods with natural curvature have no equilibrium in the flat, for which all frames were "
+      "requested: request one nearer to the actuated boundary";
   if (path.segments.empty()) return text;
   double nearest = 1;  // to the flat
   for (const PathSegment& segment : path.segments)
@@ -296,7 +299,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   const double seconds_scene = cpu_seconds_now() - begun;
   const LevelPlan levels = initial_levels(*scene);
   TRY_DO(fits_memory(*scene, levels));
-  // what the run would only find out later
+  // errors that would else be found only during the run
   if (preset.indentation.requested() && preset.indentation.joint.size() == 2)
     TRY_DO(pushed_joint(preset.indentation, scene->footprint, {}));
   TRY_DO(check_steps(preset.step, scene->footprint));

@@ -24,25 +24,25 @@ struct ExperimentResult {
   record::Summary summary;
 };
 
-/// What would run, without running it (`gridshell check`).
+/// Description of a run before it is started (`gridshell check`).
 struct Plan {
   std::string model;          ///< the rod model chosen
   std::string model_reason;   ///< one sentence
-  int edges_per_segment = 0;  ///< of the finest mesh
+  int edges_per_segment = 0;  ///< edges per segment of the finest mesh
   std::vector<int> levels;    ///< edges per segment of every mesh solved
   bool extrapolated = false;  ///< Richardson over the last levels
   int rods = 0, joints = 0, cells = 0, dof = 0;
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
-  double memory_GB = record::unknown;  ///< of the whole program
-  std::vector<std::string> seams;      ///< of building blocks, one sentence each
+  double memory_GB = record::unknown;  ///< memory of the program
+  std::vector<std::string> seams;      ///< seams of building blocks, one sentence each
   /// on a mesh: the parts that it reaches and those that it does not, one sentence each
   std::vector<std::string> net;
   std::string bending;  ///< expected bending of the rods; empty: not known
   /// effects that the model neglects and that matter here: one sentence each
   std::vector<std::string> left_out;
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
-  std::shared_ptr<const Scene> scene;  ///< what was built for it, and a run takes
+  std::shared_ptr<const Scene> scene;  ///< the scene of the preset, which run() takes
 };
 
 /// Builds the scene of a preset and describes the run. Errors: Fault::bad_input with the reason.

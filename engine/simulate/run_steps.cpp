@@ -24,7 +24,7 @@ struct Done {
   std::string reported = {};  ///< sentence about it in addition to its certificate
 };
 
-/// A hand's whole work on one plan of meshes.
+/// All steps on the meshes of one plan.
 struct Work : EquilibriumPath {
   Checkpoint begin;
   std::vector<Done> done = {};
@@ -46,7 +46,7 @@ bool snapped(const PathSegment& segment) {
                              [](const Event& one) { return one.to && one.jump; });
 }
 
-/// A step without a sampled path is a segment of its start and end alone.
+/// Completes the segment of a step. Without a path it has only the state at its end.
 void close(PathSegment& segment, const Simulation& simulation) {
   if (!segment.load_steps.empty()) {
     segment.from = segment.load_steps.front().point.t;
@@ -90,6 +90,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
   work.earlier = std::exchange(work.segments, {});
+  for (PathSegment& segment : work.earlier) segment.free_states();
   work.single_motion = false;
   Simulation& simulation = work.simulation;
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -119,7 +120,7 @@ std::string at_fraction(double t, std::optional<double> error) {
   return text + " of its path";
 }
 
-/// Hands the frames of one work to a sink.
+/// Passes the frames of all steps to a sink.
 class Show {
  public:
   Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
@@ -133,7 +134,7 @@ class Show {
     Simulation& simulation = work_.simulation;
     simulation.restore(work_.begin);
     boundary_ = {1, 1};
-    // belongs to no step
+    // the first frame belongs to no step
     if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
@@ -160,7 +161,7 @@ class Show {
     return sampler_->take_current(last, event(last), last.t);
   }
 
-  /// A sample of the path of a step; what has no state is left out.
+  /// Takes the frame at a sample of the path of a step, if there is a state.
   Result<void> between(const Done& done, const PathSample& sample) {
     Simulation& simulation = work_.simulation;
     simulation.restore(done.path_end);
@@ -175,7 +176,7 @@ class Show {
     return {index_, step_, t, double(index_) / count_};
   }
 
-  /// What the end of a step says.
+  /// Text of the frame at the end of a step.
   std::string event(const PathSample& sample) const {
     const PathSegment& segment = work_.segments[step_];
     if (at_limit(segment.report.end)) return limit_event(work_.simulation, segment.report.end);
@@ -225,7 +226,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   return text;
 }
 
-/// Which step the limit belongs to, in front of its reason.
+/// Sets the limit of the path and names its step in front of the reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
   set_limit(work, at_fraction);
   if (work.limit == record::Limit::none) return;
@@ -278,6 +279,11 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
           }))
         return invalid("[[step]] {} cells: got [{:g}, {:g}], expected a cell of the footprint",
                        k + 1, cell[0], cell[1]);
+    const auto edge_points = double(2 * footprint.rods.size());
+    for (const auto& row : step.edge_points)
+      if (row[0] >= edge_points)
+        return invalid("[[step]] {} edge_points: got {:g}, expected 0 to {:g}", k + 1, row[0],
+                       edge_points - 1);
     if (step.kind == preset::StepKind::brace && footprint.cells.empty())
       return invalid("[[step]] {}: the footprint has no cells to brace", k + 1);
     if (step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open)

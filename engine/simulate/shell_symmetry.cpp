@@ -9,7 +9,7 @@
 namespace gridshell::simulate {
 namespace {
 
-/// To round-off, which a designed shell's diameters have.
+/// Whether two rods are equal up to round-off, which the diameters of a designed shell have.
 bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
   const auto same = [](double one, double other) {
     return std::abs(one - other) <= 1e-6 * std::abs(one);
@@ -21,7 +21,7 @@ bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
          same(one.GJ, other.GJ) && weigh_alike;
 }
 
-/// Whether every edge goes to an edge of a rod of the same kind.
+/// Whether a symmetry maps every edge to an edge of an equal rod.
 bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry& symmetry) {
   const auto edge = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
   std::map<std::pair<int, int>, std::size_t> rod_of;
@@ -36,7 +36,8 @@ bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry&
   });
 }
 
-/// Joints have the same indices on every mesh, so the coarsest mesh gives the permutation.
+/// The symmetries of the shell with its ends at the current state. Joints have the same indices on
+/// every mesh, so the coarsest mesh gives their permutations.
 std::vector<MeshSymmetry> symmetries_here(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const RodMesh mesh = mesh_rods(scene.footprint, 1);
@@ -74,7 +75,7 @@ double distance_of_image(const Simulation& simulation, double least_mm) {
 }
 
 bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes) {
-  constexpr double times = 4;  // over the height: what breaks from the flat on grows with it
+  constexpr double times = 4;  // over the height, with which an asymmetry of the flat state grows
   const double broken_mm = 0.02 * nearer.scene().footprint.spacing;
   const Eigen::Index count = nearer.shell().finest().joints;
   const Eigen::Matrix3Xd before = nearer.nodes().leftCols(count), joints = nodes.leftCols(count);

@@ -21,7 +21,7 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh&
 double distance_of_image(const Simulation& simulation, double least_mm);
 
 /// Whether a state further along the path (nodes of the finest mesh) breaks a symmetry of the shell
-/// that the simulation's own, nearer to the flat, keeps: the path branches in between.
+/// that the simulation's own state, nearer to the flat one, has: the path branches in between.
 bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes);
 
 }  // namespace gridshell::simulate

@@ -15,14 +15,14 @@
 namespace gridshell {
 namespace {
 
-constexpr double stiffness_growth = 100;  // at which the rods reach the strain limit
+constexpr double stiffness_growth = 100;  // a push that is so much stiffer than at its start ends
 
 PathOptions options_for(const Scene& scene, Team* team) {
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
-  // far below what the meshes leave, so that it does not show in the differences between them
+  // far below the errors of the meshes, so that it does not change the differences between them
   options.tolerance_mm = std::clamp(1e-3 * scene.tolerance * scene.length_scale_mm, 1e-7, 1e-4);
-  // rods that press on one another are stiff: a distance so much off would show in their forces
+  // rods in contact are stiff: an error of that size in a distance would change their forces
   if (scene.rods.contact.barrier.acts()) options.tolerance_mm = 1e-7;
   options.team = team;
   return options;
@@ -46,7 +46,7 @@ Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const Le
   return simulation;
 }
 
-/// The shell of rods() on the meshes of a plan, as it was built before if it was.
+/// Returns the shell of rods() on the meshes of a plan; it is built only once.
 Result<std::shared_ptr<NestedShell>> Simulation::build(const LevelPlan& plan) {
   for (const auto& built : built_)
     if (built->plan() == plan) return built;
@@ -61,7 +61,7 @@ void Simulation::use(std::shared_ptr<NestedShell> shell) {
     spent_ += shell_->effort();
   }
   shell_ = std::move(shell);
-  spent_ = spent_ - shell_->effort();  // that is counted already, or another's
+  spent_ = spent_ - shell_->effort();  // its earlier effort is counted already, or another's
   search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
 }
 
@@ -100,7 +100,7 @@ void Simulation::put_push(record::Frame& frame) const {
 void Simulation::put_push_errors(record::Frame& frame) const {
   const NestedState& state = shell_->state();
   frame.push_error_N = state.reaction_error_N;
-  // of the last constraint, with the others fixed
+  // the stiffness is that of the last constraint, with the others fixed
   const Eigen::Index entries = state.held_stiffness.rows(), own = holds_.back().directions.cols();
   const Eigen::VectorXd along =
       along_.size() == entries ? Eigen::VectorXd(along_.tail(own)) : Eigen::VectorXd();
@@ -108,7 +108,7 @@ void Simulation::put_push_errors(record::Frame& frame) const {
   const Eigen::VectorXd direction = along.normalized();
   frame.stiffness_N_per_mm =
       direction.dot(state.held_stiffness.bottomRightCorner(own, own) * direction);
-  // the state's is that of one entry
+  // the state's error is that of one entry of the matrix
   frame.stiffness_error_N_per_mm =
       std::pow(direction.lpNorm<1>(), 2) * state.stiffness_error_N_per_mm;
 }
@@ -185,7 +185,7 @@ double Simulation::push_stiffness() const {
   return along_.dot(shell_->state().held_stiffness * along_);
 }
 
-// ---- begin ----
+// ---- first state ----
 
 Report Simulation::begin_flat() {
   const CallBegin begin = call_begin();
@@ -201,6 +201,7 @@ Report Simulation::begin_flat() {
     flat.x = nodes_of(shell_->mesh(k), shell_->model(k), flat.levels.back().x);
   }
   shell_->restore(flat, shell_->motions(), {});
+  holds_.clear();
   actuating_ = true;
   set_progress(0);
   return report(Outcome::reached, 0, begin);
@@ -246,11 +247,12 @@ void Simulation::set_progress(double progress) {
   boundary = {progress_ = progress, Eigen::Matrix3Xd::Zero(3, scene_->motion.begin.cols())};
 }
 
-// ---- keep ----
+// ---- save and restore ----
 
-/// Replaces meshes or rods and finds the equilibrium there. If there is none, the old ones remain.
+/// Replaces meshes or rods and finds the equilibrium with them. If there is none, the old ones
+/// remain. `nearby`: the equilibrium with new rods is searched for near the current state.
 Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
-  // joints during a joint actuation stay on their meshes
+  // during a joint actuation the meshes cannot change
   if (!nearby && shell_->outside(shell_->last()).opening != 0) return Outcome::too_coarse;
   TRY(built, build(plan));
   if (*built == shell_) return Outcome::reached;
@@ -266,7 +268,7 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
             find_equilibrium(shell_->system(), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);
   }
-  // a state that is not stable is one on finer meshes too
+  // a state that is not stable need not be stable on the new meshes
   shell_->allow_unstable(before->state().inertia.negative_pivots > 0);
   Outcome end = shell_->start(t, state, watch).end;
   shell_->allow_unstable(false);

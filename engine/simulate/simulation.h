@@ -23,7 +23,7 @@ namespace gridshell {
 /// The figures that certify a state. Simulation::certificate() computes them from the finest mesh.
 struct Certificate {
   double residual_N = 0;         ///< largest unbalanced force on an unconstrained node
-  int negative_pivots = 0;       ///< of the Hessian on the unconstrained unknowns; 0: stable
+  int negative_pivots = 0;       ///< of the Hessian by the free unknowns; 0: stable
   double error_estimate_mm = 0;  ///< largest error of a node's position; NaN on a single mesh
   /// axial strain of largest magnitude, with its sign; below 0 in compression
   double largest_strain = 0;
@@ -36,7 +36,7 @@ struct Event {
   enum class Kind { stability_lost, turned_back, locked, overbent, contact };
   Kind kind = Kind::stability_lost;
   double t = 0;                 ///< path parameter, extrapolated if two meshes have the event
-  std::optional<double> error;  ///< of t; empty if only one mesh has the event
+  std::optional<double> error;  ///< error of t; empty if only one mesh has the event
   std::optional<double> to;     ///< path parameter of the next equilibrium; empty if none was found
   /// whether the path continues by a snap; else along a branch that bifurcates there
   bool jump = true;
@@ -67,8 +67,9 @@ constexpr Outcome outcome_of(Event::Kind limit) {
   return limit == Event::Kind::overbent ? Outcome::overbent : Outcome::locked;
 }
 
-/// Whether rods at Outcome::locked met the limit of the strain, and not a push 100 times its first
-/// stiffness: the state at the limit is up to a load step before it.
+/// Whether a path that ended with Outcome::locked reached the strain limit, and not 100 times the
+/// first stiffness of a push. Its last state is up to a load step before the limit, so 0.9 of the
+/// limit count.
 inline bool locked_by_strain(double largest_strain, double max_strain) {
   constexpr double near_it = 0.9;
   return std::abs(largest_strain) > near_it * max_strain;
@@ -80,30 +81,29 @@ struct [[nodiscard]] Report {
   /// Why it ended: reached, or the reason that it stopped before.
   Outcome end = Outcome::reached;
   double t = 0;               ///< path parameter reached
-  Certificate certificate;    ///< of the current state
-  std::vector<Event> events;  ///< that the command passed, in order
+  Certificate certificate;    ///< certificate of the current state
+  std::vector<Event> events;  ///< events on the path of the command, in order
   /// Factorisations, iterations and solves of this command.
   Effort effort;
   /// Wall time, s.
   double seconds = 0;
 };
 
-/// A certified state of the path on all meshes, with its contacts. Simulation::go() writes it.
-/// State, tangent and mesh differences of the finest mesh.
+/// A certified state of the path: state and tangent of the finest mesh, differences of the coarser
+/// meshes, certificate and contacts. Simulation::go() writes it.
 struct LoadStep {
   NestedPathPoint point;
   Certificate certificate;
   /// Interpenetrations of rods, joints and table at this state (contact is not modelled there).
   record::Contacts contacts = {};
-  /// Whether a stable state is stable on finer meshes as well, judged by two meshes; where the
-  /// lowest eigenvalue comes near zero.
+  /// Whether two meshes confirm that a stable state is stable on finer meshes, too. It is checked
+  /// where the lowest eigenvalue is near zero, else true.
   bool stability_confirmed = true;
 };
 
 /// State of the finest mesh at one time of a dynamic snap.
 struct TimedState {
   double time = 0;  ///< s, from the start of the snap
-  /// Nodes in mm, twist angles in rad.
   State state;
 };
 
@@ -167,7 +167,7 @@ struct Checkpoint {
   /// Load cases that act, the last one last.
   std::vector<CaseOnShell> cases;
   double first_stiffness = 0;  ///< dF/d(depth) at the start of the push
-  Eigen::VectorXd along;  ///< its direction in the space of the constrained components, length 1
+  Eigen::VectorXd along;       ///< direction of the push among the constrained components, length 1
 };
 
 /// Smallest displacement of a joint that counts as a push, mm.
@@ -188,15 +188,16 @@ struct RunContext {
 };
 
 /// A simulation of one scene. It is not thread-safe. A watch may be cancelled from any thread; the
-/// simulation then returns within one factorisation. Every call ends: load steps are halved at most
-/// five times, a path switches branches at most eight times, Newton iterations are counted.
+/// simulation then returns within one factorisation. Every call ends: load steps have a smallest
+/// length, a path switches branches at most eight times (64 times with contact), and Newton's
+/// iterations are limited.
 class Simulation {
  public:
   /// Builds meshes, model and solver. Errors (bad_input): rods that the rod model does not support.
   static Result<Simulation> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                  const RunContext& context = {});
 
-  // ---- begin ----
+  // ---- first state ----
 
   /// Starts from the flat footprint.
   Report begin_flat();
@@ -212,7 +213,7 @@ class Simulation {
   /// Starts from a state of the coarsest mesh, prolongated to the finest.
   Report begin_refined(double t, const State& coarse, const Watch& watch);
 
-  // ---- move ----
+  // ---- motion and loads ----
 
   /// Follows the path to parameter t, past snaps, up to the strain limit of the rods. Load steps
   /// are chosen by the path follower. t is sqrt(progress) in an actuation; in a drive it runs from
@@ -252,12 +253,12 @@ class Simulation {
   Report begin_joint_push(std::vector<Constraint> holds, std::vector<Eigen::Vector3d> displacements,
                           const Watch& watch);
 
-  // ---- keep ----
+  // ---- save and restore ----
 
   Checkpoint save() const;
   void restore(const Checkpoint& checkpoint);
 
-  // ---- look ----
+  // ---- current state ----
 
   const Scene& scene() const { return *scene_; }
   NestedShell& shell() { return *shell_; }
@@ -332,8 +333,8 @@ class Simulation {
   struct Limits {
     double strained, gap_mm[record::contact_kinds];
   };
-  /// The larger of bending strain and utilisation over its limit, and the limit's name:
-  /// "max_utilisation = 0.8".
+  /// Bending strain and utilisation, each over its limit: the larger of the two, and that limit as
+  /// text: "max_utilisation = 0.8".
   std::pair<double, std::string> strained() const;
   Limits limits() const;
   Limits limits_here() const;
@@ -351,7 +352,7 @@ class Simulation {
   std::vector<NodeAction> field_;  // the applied load
   double load_scale_ = 1;          // factor of the scene's dead loads
   double progress_ = 0;
-  double first_stiffness_ = 0;  // of the last push, at its start, N/mm
+  double first_stiffness_ = 0;  // stiffness at the start of the last push, N/mm
   Eigen::VectorXd along_;       // direction of its displacements, in the constrained directions
   bool actuating_ = true;       // the path parameter is that of the scene's motion, not of a drive
   Effort spent_;                // on meshes that finer ones replaced

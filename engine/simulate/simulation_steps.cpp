@@ -24,17 +24,15 @@ std::vector<NodeAction> times(std::vector<NodeAction> actions, double factor) {
 
 }  // namespace
 
-LoadFactor Simulation::steady_load() const {
-  return {actuating_ ? load_scale_ * progress_ : load_scale_, 0};
-}
+LoadFactor Simulation::steady_load() const { return {load_scale_ * progress_, 0}; }
 
 void Simulation::apply_field(std::vector<NodeAction> field) {
   field_ = std::move(field);
   shell_->set_fields(field_, {});
 }
 
-/// Certifies the current state as the start of a motion that was just prescribed; else everything
-/// is as it was `before`.
+/// Certifies the current state as the start of a motion that was just prescribed. If that fails, it
+/// restores `before`.
 Outcome Simulation::start_here(double t, const Checkpoint& before, const Watch& watch) {
   const Outcome end = shell_->start(t, shell_->state().levels.back(), watch).end;
   if (end != Outcome::reached) restore(before);
@@ -109,7 +107,7 @@ Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across a
   Constraint hold{joint};
   if (across == Across::free) hold.directions = displacement.normalized();
   holds.push_back(hold);
-  // a continued push is measured by the stiffness at its start
+  // a push that continues the last one is compared with the stiffness at the start of that one
   const bool goes_on = !holds_.empty() && holds_.back().node == joint &&
                        holds_.back().directions.cols() == hold.directions.cols() &&
                        holds_.back().part(displacement).isApprox(displacement, 1e-6);
@@ -147,17 +145,18 @@ Report Simulation::release(int joint, const Watch& watch) {
 }
 
 Report Simulation::load(double factor, const Watch& watch) {
-  const LoadFactor now = steady_load();
-  Report done = drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
-  load_scale_ = now.begin + done.t * (factor - now.begin);
+  const double change = factor - load_scale_;
+  const LoadFactor load{steady_load().begin, change * progress_};
+  Report done = drive({.holds = holds_, .load = load}, {}, watch);
+  load_scale_ += done.t * change;
   return done;
 }
 
 Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch, double dead) {
-  const LoadFactor load{steady_load().begin, dead};
+  const LoadFactor load{steady_load().begin, dead * progress_};
   const std::vector<NodeAction> coming = difference(field, field_);
   Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
-  if (dead != 0) load_scale_ = load.begin + done.t * dead;
+  load_scale_ += done.t * dead;
   if (done.end == Outcome::reached) apply_field(std::move(field));
   return done;
 }

@@ -15,7 +15,7 @@ namespace {
 
 Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
-/// Where a move has the edge points, off the scene's motion.
+/// Displacements of the edge points in addition to the scene's motion, mm, that a move requests.
 Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene) {
   Eigen::Matrix3Xd dragged = Eigen::Matrix3Xd::Zero(3, scene.motion.begin.cols());
   for (const auto& row : step.edge_points) {
@@ -51,8 +51,8 @@ Result<Report> move(Simulation& simulation, const preset::Step& step, const Watc
   return report;
 }
 
-/// Where a step takes a joint: to `target`, or as far as it lies along `along` where the joint is
-/// free across.
+/// The position to which a step moves a joint: `target`. If the joint is `free` perpendicular to
+/// `along`, only the component along it is prescribed.
 struct Goal {
   int joint = 0;
   Eigen::Vector3d target, along;

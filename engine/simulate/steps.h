@@ -22,7 +22,7 @@ Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
 /// The progress to which a move step goes.
 double progress_of(const preset::Step& step, const Scene& scene);
 
-/// Path of a move or of a push: what was followed, and the simulation at its end.
+/// Path of a move, a push or a joint actuation: its load steps, and the simulation at its end.
 struct StepPath : PathRecord {
   Checkpoint end = {};
 };
@@ -31,26 +31,24 @@ struct StepPath : PathRecord {
 /// Errors: bad_input with the step's number.
 Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint);
 
-/// Does one step. A step that ends early leaves the simulation in its last certified state, a
-/// `release`, `rest` or `jitter` in the state before it. All steps except moves and loads are
-/// predicted on the coarsest mesh (`path.end` of a push is on that one), or on a finer one if
-/// others do not follow it: the simulation then uses finer meshes. Errors (bad_input): a joint or
-/// an edge point that does not exist, nothing to release, individual displacements of edge points
-/// whose rods' directions are prescribed.
+/// Applies one step. A step that ends early leaves the simulation in its last certified state;
+/// `rest`, `jitter` and a `release` without an equilibrium leave it in the state before them.
+/// Errors (bad_input): a joint or an edge point that does not exist, nothing to release, individual
+/// displacements of edge points whose rods' directions are prescribed.
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
                           StepPath* path = nullptr);
 
 // A run of a preset with steps: the shell is actuated, then the steps are applied in order.
 
-/// Distributes `frames` over the steps; the first frame is the shell before them. Each step has
-/// one; the remaining ones are distributed evenly over steps with a sampled path, moves of the
-/// whole boundary and pushes.
+/// Distributes `frames` over the steps; the first frame is the shell before them. Each step has at
+/// least one; the others are distributed evenly over the steps with a sampled path: pushes, joint
+/// actuations and moves of the whole boundary.
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames);
 
 /// How the steps ended.
 struct StepsResult {
   EquilibriumPath path;
-  std::vector<std::string> messages = {};  ///< a sentence a step that was begun
+  std::vector<std::string> messages = {};  ///< one sentence for each step that was started
 };
 
 /// Applies the steps in order until one ends early, which is then the path's limit, and passes
@@ -69,11 +67,11 @@ struct StepPath;
 /// Fixes the current angles of all joints. Errors (bad_input): a shell that is still flat.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
-/// Whether the first step opens the joints of a network that stays as drawn until then.
+/// Whether the first step opens the joints of a network that remains as drawn until then.
 bool opens_as_drawn(const std::vector<preset::Step>& steps, const Scene& scene);
 
-/// Bolts that keep the angles as drawn of the joints that a step opens. Errors (bad_input) of
-/// open().
+/// Bolts at the joints that a step opens, with the drawn angles as natural angles. Errors
+/// (bad_input) as open().
 Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprint);
 
 /// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the
@@ -98,8 +96,8 @@ Result<Report> brace(Simulation& simulation, const preset::Step& step, const Wat
 /// there are none.
 Result<Report> take_out(Simulation& simulation, preset::Released what, const Watch& watch);
 
-/// From now on the scene's load case of that name acts `factor` times. Errors (bad_input): there is
-/// no such case.
+/// Sets the factor of the scene's load case of that name. Errors (bad_input): there is no such
+/// case.
 Result<Report> bring_case(Simulation& simulation, const std::string& name, double factor,
                           const Watch& watch);
 

@@ -13,7 +13,7 @@
 namespace gridshell::simulate {
 namespace {
 
-/// What is made stiff flat can no longer be formed.
+/// Checks that the shell is formed: a grid that is stiffened while flat can no longer be formed.
 Result<void> check_formed(const Simulation& simulation) {
   const BoundaryMotion& motion = simulation.scene().motion;
   const bool moves = motion.begin.cols() > 0 && !motion.begin.isApprox(motion.end, 0);
@@ -26,9 +26,9 @@ double stiffness_of(const preset::Step& step) {
   return step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
 }
 
-/// Vectors of the current shape that bolts and braces fix, from those of each mesh. A shape of one
-/// mesh would put that mesh's error into the problem that all meshes solve, where no difference
-/// between them shows it: these are extrapolated.
+/// Vectors of the current shape that bolts and braces fix, extrapolated from those of each mesh.
+/// With the vectors of one mesh that mesh's error would be part of the problem that all meshes
+/// solve, and no difference between meshes would show it.
 template <typename OfLevel>
 Eigen::Matrix3Xd fixed_vectors(const NestedShell& shell, const OfLevel& of_level) {
   std::vector<Eigen::Matrix3Xd> levels;
@@ -41,7 +41,7 @@ Bolts now_tightened(const Simulation& simulation, double stiffness) {
   const NestedShell& shell = simulation.shell();
   Bolts bolts;
   const Eigen::Matrix3Xd tangents = fixed_vectors(shell, [&](int level) {
-    // the finest is the last
+    // the last call, for the finest mesh, sets the result
     bolts = tightened(shell.mesh(level), shell.model(level),
                       shell.state().levels[std::size_t(level)], stiffness);
     std::vector<Eigen::Vector3d> all;
@@ -66,8 +66,8 @@ std::vector<double> torques_of_bolts(const Simulation& simulation) {
   return {torques.row(0).begin(), torques.row(0).end()};
 }
 
-/// How far each joint is to open so that its bolt, of `now`, has no torque at the step's angle,
-/// rad; NaN of joints that are left as they are.
+/// The change of each joint's natural angle, rad, after which its bolt (of `now`) has no torque at
+/// the step's angle; NaN for joints that are not driven.
 Result<std::vector<double>> openings(const preset::Step& step, const Footprint& footprint,
                                      const Bolts& now) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), rad = M_PI / 180;
@@ -135,7 +135,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   Bolts bolts = now_tightened(simulation, stiffness);
   bolts.mean = step.drive == preset::JointDrive::mean;
   bolts.opened.assign(bolts.rods.size(), 0);
-  // bolts that are there keep what they strive for; others that replace them, their torque
+  // existing bolts retain their natural angle; bolts that replace others take over their torque
   const bool same = known && known->stiffness_Nmm == stiffness && known->mean == bolts.mean;
   const std::vector<double> torques =
       known && !same ? torques_of_bolts(simulation) : std::vector<double>();
@@ -161,7 +161,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   if (!report || report->end != Outcome::reached) return report;
   report = simulation.open_joints(watch, path);
   if (path) path->end = simulation.save();
-  // from here on that is the joints' angle without torque
+  // from now on this is the joints' natural angle
   for (std::size_t joint = 0; joint < by->size(); ++joint)
     bolts.opened[joint] += report->t * std::exchange(bolts.opening[joint], 0);
   rods.bolts = std::make_shared<const Bolts>(std::move(bolts));

@@ -21,7 +21,8 @@ double ArcFollower::product(const State& a, double at, const State& b, double bt
          options_.parameter_mm * options_.parameter_mm * at * bt;
 }
 
-/// Unit tangent at a point that was just factorised, on along `before`.
+/// Computes the unit tangent at a point that was just factorised. Its direction is that of the
+/// tangent `before`, `before_t`, or, without `before`, the sign of `before_t` along the parameter.
 void ArcFollower::take_tangent(ArcPoint& at, const State* before, double before_t) {
   PathPoint& point = at.point;
   motion_.velocity(*system_, point.t, point.state, point.velocity);
@@ -47,7 +48,8 @@ Outcome ArcFollower::start(double t, State state, double direction, const Watch&
   return Outcome::reached;
 }
 
-/// Newton on positions and parameter, at right angles to the tangent of the point before.
+/// Corrects positions and parameter by Newton's method, perpendicular to the tangent at the current
+/// point.
 bool ArcFollower::corrected(ArcPoint& next, int& iterations, const Watch& watch) {
   PathPoint& point = next.point;
   const State& tangent = now_.point.velocity;
@@ -90,7 +92,7 @@ Outcome ArcFollower::step(const Watch& watch) {
     const double before_t = turn_t_;
     take_tangent(next, &before, before_t);
     now_ = std::move(next);
-    // four corrections are what a good step takes
+    // a step of suitable length takes four corrections
     step_mm_ = std::min(options_.largest_mm, step_mm_ * std::clamp(4.0 / iterations, 0.5, 1.5));
     return Outcome::reached;
   }

@@ -9,11 +9,11 @@
 namespace gridshell {
 
 struct ArcOptions {
-  double step_mm = 1;          ///< the first step; later ones follow how hard the last was
-  double largest_mm = 5;       ///< of a step
-  double smallest_mm = 1e-4;   ///< below, the path is lost
-  double parameter_mm = 1;     ///< what a parameter of one counts as in the arc length
-  double tolerance_mm = 1e-7;  ///< of Newton's corrections
+  double step_mm = 1;          ///< first step; the next depends on the corrections of the last
+  double largest_mm = 5;       ///< largest step
+  double smallest_mm = 1e-4;   ///< smallest step; below it the path counts as lost
+  double parameter_mm = 1;     ///< arc length of a change of the parameter by one
+  double tolerance_mm = 1e-7;  ///< Newton's method ends when no node moves further
 };
 
 /// A point of the path with the inertia of its Hessian at fixed parameter. A change of the number
@@ -34,17 +34,18 @@ class ArcFollower {
   /// decreasing (-1). Outcomes as newton().
   Outcome start(double t, State state, double direction = 1, const Watch& watch = unwatched);
 
-  /// One step, halved until it succeeds; lost where that ends in steps that are too small: the
-  /// point is then the last good one.
+  /// Takes one step, halved until it succeeds. Outcomes: reached, cancelled, or lost if the step
+  /// would be below `smallest_mm`; then the current point is unchanged.
   Outcome step(const Watch& watch = unwatched);
 
-  /// Switches at a bifurcation to the branch nearest to the state displaced by `mm` along a lowest
-  /// mode (no parameter): predicts along the mode and corrects perpendicular to it. The path
-  /// continues away from `from`. Outcomes: reached, lost, cancelled.
+  /// Switches to another branch at the bifurcation `from`: predicts a state at the arc length `mm`
+  /// along `mode`, a lowest mode, without a change of the parameter, and corrects it perpendicular
+  /// to the mode. The path continues away from `from`. Outcomes: reached, lost, not_finite,
+  /// cancelled.
   Outcome leave(const PathPoint& from, const Eigen::Matrix3Xd& mode, double mm,
                 const Watch& watch = unwatched);
 
-  /// The next step is so long; later ones as ever.
+  /// Sets the length of the next step; later steps are chosen as usual.
   void set_step(double mm) { step_mm_ = mm; }
   double step_mm() const { return step_mm_; }
   /// dt/ds; its sign changes at a limit point.
@@ -65,9 +66,9 @@ class ArcFollower {
   double turn_t_ = 1;  // dt/ds; now_.point.velocity is dx/ds
 };
 
-/// Parameter of the limit point after the equilibrium `begin`: the extreme value in `direction`,
-/// within a limited number of steps. Empty if the path has none there (stability is lost at a
-/// bifurcation), cannot be followed, or was cancelled.
+/// Parameter of the limit point after the equilibrium `begin`: the last value before the parameter
+/// changes against `direction`, among at most 40 steps. Empty if there is none (stability is lost
+/// at a bifurcation), or if the path cannot be followed or was cancelled.
 std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,
                                     const PathPoint& begin, double direction,
                                     const ArcOptions& options, const Watch& watch);

@@ -86,7 +86,7 @@ class BlockCholesky final : public LinearSolver {
  private:
   void take_numbers() {
     if (!numbers) numbers = std::make_shared<FactorNumbers>();
-    numbers->of = nullptr;  // there may not be memory enough
+    numbers->of = nullptr;  // in case an allocation below fails
     const auto take = [](auto& all, std::size_t count) {
       if (all.size() < count) std::exchange(all, {}), all.resize(count);
       return all.data();
@@ -97,8 +97,9 @@ class BlockCholesky final : public LinearSolver {
     numbers->of = this;
   }
 
-  /// rows below the diagonal of each column of L, in elimination order: the Hessian's own and those
-  /// of the columns whose first row it is, its children in the elimination tree
+  /// Computes the rows below the diagonal of each column of L, in elimination order: those of the
+  /// Hessian, and those of the column's children in the elimination tree, the columns whose first
+  /// row is this one.
   void find_structure(const std::vector<std::vector<int>>& graph) {
     const int n = int(order_.size());
     place_.resize(order_.size());
@@ -164,7 +165,7 @@ class BlockCholesky final : public LinearSolver {
     }
   }
 
-  /// returns which blocks below the diagonal the Hessian has
+  /// Plans the copies of the Hessian's blocks. Returns which blocks below the diagonal it has.
   std::vector<char> plan_copies() {
     std::vector<char> filled(factor_.row.size(), 0);
     const auto& pattern = model_.pattern.pairs();
@@ -245,14 +246,14 @@ class BlockCholesky final : public LinearSolver {
 
   const Model& model_;
   std::vector<int> order_, place_;  // elimination order of free columns, and its inverse
-  std::vector<int> column_;         // of the model, in elimination order
-  std::vector<char> partly_;        // whether some components of it are constrained
+  std::vector<int> column_;         // column of the model, in elimination order
+  std::vector<char> partly_;        // whether some of the column's components are constrained
   // targets of the blocks of pairs, as they are or transposed; blocks of partly constrained columns
   // are copied there again without the constrained components
   std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;
   std::vector<Range> empty_;  // blocks below the diagonal that begin at zero
   BlockFactor factor_;
-  mutable std::vector<Entry> work_;  // of solve()
+  mutable std::vector<Entry> work_;  // right-hand side of solve(), in elimination order
 };
 
 }  // namespace

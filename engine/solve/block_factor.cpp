@@ -12,8 +12,8 @@ namespace gridshell {
 namespace {
 
 /// Factorises a diagonal block into L D L^T in place: L below the diagonal, whose ones are not
-/// stored, D on it. Returns false for an unusable pivot. Only the inverses of pivots are divisions,
-/// since columns wait for one another.
+/// stored, D on it. Returns false for an unusable pivot. Only the inverses of pivots are divisions:
+/// divisions are slow, and each column depends on the one before.
 inline bool factor_diagonal(Block3& m, Column& inverse, Inertia& inertia) {
   Column* d = m.column;
   inverse[0] = 1 / d[0][0];
@@ -31,7 +31,7 @@ inline bool factor_diagonal(Block3& m, Column& inverse, Inertia& inertia) {
   return inertia.usable;
 }
 
-/// Column k of L, once nothing more is subtracted from it.
+/// Computes column k of L after all updates to it.
 inline bool finish_column(BlockFactor& f, int k, Inertia& inertia) {
   const Column* d = f.diagonal[k].column;
   const Column& inverse = f.inverse[k].value;
@@ -58,7 +58,7 @@ struct Scaled {
   }
 };
 
-/// target -= L_b D L_a^T, from zero where it begins so
+/// target -= L_b D L_a^T; if `begins`, target = -L_b D L_a^T.
 template <bool begins = false>
 inline void subtract(const Block3& lb, const Scaled& la, Block3& target) {
   for (int j = 0; j < 3; ++j) {
@@ -172,7 +172,7 @@ bool finish_one(BlockFactor& f, int p, int most_negative, Inertia& inertia) {
 GRIDSHELL_CLONES
 void update_some(BlockFactor& f, int p, const Rows& some) { update(f, p, some); }
 
-/// Panels `from` to `to`; `own`: what a branch subtracts from the trunk is left out.
+/// Factorises panels `from` to `to`; with `own` they update their own branch only, not the trunk.
 GRIDSHELL_CLONES
 void factor_panels(BlockFactor& f, int from, int to, bool own, int most_negative,
                    Inertia& inertia) {
@@ -191,7 +191,7 @@ inline Rows rows_between(const BlockFactor& f, int begin, int end, const Rows& c
   return {int(first - row), int(last - row)};
 }
 
-/// What the branches subtract from columns of the trunk.
+/// Subtracts the updates of all branches from columns of the trunk.
 GRIDSHELL_CLONES
 void update_trunk(BlockFactor& f, const Rows& columns) {
   for (int p : f.crossing) {
@@ -201,7 +201,8 @@ void update_trunk(BlockFactor& f, const Rows& columns) {
   }
 }
 
-/// Subtracts what blocks `from` to `to` of a column make of its part of the right-hand side.
+/// Subtracts from `x` the products of blocks `from` to `to` of a column with `value`, the column's
+/// part of the right-hand side.
 inline void subtract_blocks(const BlockFactor& f, int from, int to, const Column& value, Entry* x) {
   for (int i = from; i < to; ++i) {
     const Column* b = f.below[i].column;
@@ -256,7 +257,7 @@ void backward(const BlockFactor& f, int from, int to, Entry* x) {
   }
 }
 
-/// Calls do_columns({from, to}) for the trunk's columns, cut to pieces of even work.
+/// Calls do_columns({from, to}) on several threads for the trunk's columns, in pieces of even work.
 void share_trunk(const BlockFactor& f, Team& team,
                  const std::function<void(const Rows&)>& do_columns) {
   const int pieces = 2 * team.threads();
@@ -268,13 +269,14 @@ void share_trunk(const BlockFactor& f, Team& team,
   team.run(pieces, [&](int k) { do_columns({cut(k), cut(k + 1)}); });
 }
 
-/// The updates of a panel, shared where that is worth it: by the columns that they go to.
+/// Subtracts the updates of a panel, on several threads if there are enough: each has other target
+/// columns.
 void update_shared(BlockFactor& f, int p, Team& team) {
   constexpr long long worth_sharing = 4000;  // products of blocks, some 30 microseconds
   const int rows = f.panel_rows(p), width = f.panel[std::size_t(p) + 1] - f.panel[std::size_t(p)];
   if (width * targets_before(rows, rows) < worth_sharing) return update_some(f, p, {0, rows});
   const int pieces = 2 * team.threads();
-  // the first rows have most columns to go to
+  // the first rows have the most targets
   const auto cut = [&](int k) {
     return k == pieces ? rows : int(rows * (1 - std::sqrt(1 - double(k) / pieces)));
   };
@@ -320,12 +322,12 @@ void solve_numbers(const BlockFactor& f, Entry* x, Team* team) {
 
 std::vector<int> branches_of(const BlockFactor& f) {
   constexpr double worth_sharing = 5e5;  // products of blocks, some 4 ms
-  constexpr double branches = 16;        // at least, where all work is in them
+  constexpr double branches = 16;        // least number of branches with all of the work
   const auto rows = [&](int k) { return f.rows_below(k); };
   const auto up = [&](int k) {
     return rows(k) > 0 ? f.row[std::size_t(f.first[std::size_t(k)])] : -1;
   };
-  std::vector<double> work(std::size_t(f.columns), 0);  // of a column and all below it in the tree
+  std::vector<double> work(std::size_t(f.columns), 0);  // work of a column and of its subtree
   double total = 0;
   for (int k = 0; k < f.columns; ++k) {
     const double own = 0.5 * (rows(k) + 1) * (rows(k) + 2);
@@ -341,7 +343,7 @@ std::vector<int> branches_of(const BlockFactor& f) {
   std::ranges::fill(branch, -1);
   for (int k = 0; k < f.columns; ++k) {
     if (!light(k) || (up(k) >= 0 && light(up(k)))) continue;
-    // small ones are put together
+    // small branches are combined
     if (filled * 2 * branches > total) ++count, filled = 0;
     branch[std::size_t(k)] = count;
     filled += work[std::size_t(k)];

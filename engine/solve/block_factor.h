@@ -17,13 +17,13 @@ struct alignas(32) Entry {
 };
 static_assert(alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
 
-constexpr int widest_panel = 8;  // columns; wider ones would not stay in the nearest cache
+constexpr int widest_panel = 8;  // columns; wider panels would not stay in the nearest cache
 
-/// The numbers of factors that take turns: those of the last one.
+/// The numbers of the last factor of one or several solvers that use this memory in turn.
 struct FactorNumbers {
   std::vector<Block3> diagonal, below;
-  std::vector<Entry> inverse;  ///< of the pivots
-  const void* of = nullptr;    ///< the solver whose they are
+  std::vector<Entry> inverse;  ///< inverses of the pivots
+  const void* of = nullptr;    ///< the solver that computed them
 };
 
 /// Plan and numbers of one factor, in plain arrays for the loops over them. A panel is a set of
@@ -31,18 +31,18 @@ struct FactorNumbers {
 struct BlockFactor {
   int columns = 0;
   std::vector<int> first;  // columns + 1: first off-diagonal block of each column
-  std::vector<int> row;    // its row (in elimination order)
-  std::vector<int> panel;  // first column of each, and columns
+  std::vector<int> row;    // row of each off-diagonal block (in elimination order)
+  std::vector<int> panel;  // first column of each panel, and columns
   // per pair (a <= b) of the rows below a panel: the block that it updates, or ~block if it is the
   // first to write it
   std::vector<int> target;
   std::vector<long long> first_target;  // per panel
-  // branches of the elimination tree: first panel of each, and of the trunk, which comes after them
+  // first panel of each branch of the elimination tree, and of the trunk, which follows them
   std::vector<int> branch;
   std::vector<int> own_rows;    // per panel: rows below it in its own branch
   std::vector<int> crossing;    // panels of branches with rows in the trunk
-  std::vector<double> work_to;  // columns + 1: of their updates, up to each of the trunk
-  Block3 *diagonal = nullptr, *below = nullptr;  // FactorNumbers'
+  std::vector<double> work_to;  // columns + 1: work of updating the trunk up to each column
+  Block3 *diagonal = nullptr, *below = nullptr;  // in FactorNumbers
   Entry* inverse = nullptr;
 
   int panels() const { return int(panel.size()) - 1; }
@@ -50,13 +50,13 @@ struct BlockFactor {
   int rows_below(int column) const {
     return first[std::size_t(column) + 1] - first[std::size_t(column)];
   }
-  /// Number of rows below a panel; the next function: below its last column.
+  /// Number of rows below a panel, that is below its last column.
   int panel_rows(int p) const { return rows_below(panel[std::size_t(p) + 1] - 1); }
 };
 
-/// The branch of every column, from its structure, and of the trunk's columns the number after the
-/// last branch. Columns of a branch wait for no other's. All zero for a small factor, which no
-/// thread would help with.
+/// Assigns every column to a branch of the elimination tree; columns of the trunk have the number
+/// after the last branch. Columns of different branches do not depend on each other. All zero if
+/// the factor is too small for several threads.
 std::vector<int> branches_of(const BlockFactor& factor);
 
 /// Distributes the branches over threads. The panels must exist, and their columns must be in the

@@ -10,9 +10,11 @@
 namespace gridshell {
 namespace {
 
-constexpr double tilt = 0.8;  // of the dome towards a diagonal; small ones are lost to round-off
+constexpr double tilt =
+    0.8;  // tilt of the dome towards a diagonal; a small one is lost to round-off
 
-/// Between two nodes of a rod in the flat, mm: their length along it where it is straight.
+/// Distance between two nodes of a rod in the flat, mm; where the rod is straight its length
+/// between them, which has no round-off.
 double flat_chord(const RodMesh& mesh, std::size_t r, std::size_t from, std::size_t to) {
   const double along = mesh.position[r][to] - mesh.position[r][from];
   const double chord = (mesh.flat.col(mesh.rods[r][to]) - mesh.flat.col(mesh.rods[r][from])).norm();
@@ -48,7 +50,9 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
     }
   }
   // if no rod is constrained at two points: the contraction of all constrained points
-  return lengths > 0 ? 1 - chords / lengths : 1 - spread(mesh, x) / spread(mesh, motion.at(0));
+  if (lengths > 0) return 1 - chords / lengths;
+  const double before = spread(mesh, motion.at(0));
+  return before > 0 ? 1 - spread(mesh, x) / before : 0;
 }
 
 Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& motion,
@@ -98,7 +102,7 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
   if (minimise(system, state, {.tolerance_mm = 1e-2, .EA_scale = 0.01}, watch).outcome ==
       Outcome::not_finite)
     return fail(Fault::no_equilibrium, "no equilibrium: a position was not finite");
-  // thick ones do not buckle when soft, and would leave the flat to a side by chance
+  // thick rods do not buckle with the reduced EA; from the flat, the side would be chosen by chance
   if (!(rise(state) > 0.1 * rise(seeded))) state = seeded;
   return minimise_from(system, std::move(state), watch);
 }

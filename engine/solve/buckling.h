@@ -1,4 +1,4 @@
-// The first buckled equilibrium out of the flat.
+// The first buckled equilibrium of a flat shell whose boundary moves.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,8 @@
 
 namespace gridshell {
 
-/// Mean shortening of the rods with their ends at the motion's t: 1 - sum |chord| / sum length.
+/// Mean shortening of the rods if their ends move to t: 1 - sum |chord| / sum length, over the
+/// parts of rods between prescribed points.
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t);
 
 /// The path parameter at which the mean shortening is `shortening`. It may exceed 1, since the

@@ -51,7 +51,7 @@ class CholmodSolver final : public LinearSolver {
     }
     if (!supernodal) return common_.status == CHOLMOD_OK ? read_simplicial(factor_) : Inertia{};
 
-    // not positive definite: the simplicial L D L^T goes through and counts
+    // not positive definite: the simplicial L D L^T exists, too, and counts the negative pivots
     if (!indefinite_) {
       common_.supernodal = CHOLMOD_SIMPLICIAL;
       common_.method[0].ordering = CHOLMOD_GIVEN;
@@ -192,7 +192,7 @@ class CholmodSolver final : public LinearSolver {
   cholmod_sparse* matrix_ = nullptr;
   cholmod_factor* factor_ = nullptr;
   cholmod_factor* indefinite_ = nullptr;  // made when first needed
-  cholmod_factor* current_ = nullptr;     // whichever factor() left usable
+  cholmod_factor* current_ = nullptr;     // the one of both that factor() computed last
   std::vector<Place> pairs_;
 };
 

@@ -47,7 +47,7 @@ double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving) {
 namespace {
 
 constexpr double gamma = 2 - M_SQRT2;  // fraction of the trapezoidal part
-constexpr double held_mass = 1e6;      // of what is prescribed, over the shell's
+constexpr double held_mass = 1e6;      // mass of prescribed components, over the shell's mass
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void DampedMotion::clear_prescribed(Eigen::Matrix3Xd& v) const {
   for (const Constraint& hold : holds_) v.col(hold.node) -= hold.part(v.col(hold.node));
 }
 
-/// force of the shell and its loads on what is free, none along what is prescribed
+/// Forces of the shell and its loads on free components; zero on prescribed ones.
 Eigen::Matrix3Xd DampedMotion::forces(const State& state) {
   assemble_gradient(model_, state, outside_, assembly_);
   Eigen::Matrix3Xd force = -assembly_.gradient;

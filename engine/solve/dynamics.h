@@ -12,19 +12,20 @@
 
 namespace gridshell {
 
-/// Units: mm, N, s; a mass in tonnes (1 t = 1000 kg) makes N = t mm/s^2.
+// Units are mm, N, s; with a mass in tonnes (1 t = 1000 kg) N = t mm/s^2.
+
 /// Lumped masses, one per unknown: a node has half the mass of each edge at the node, an angle the
 /// edge's inertia about its axis. `mass_t_per_mm`: one per rod, or one for all; `on_nodes`:
 /// additional mass of the first nodes. Errors (bad_input): a rod without mass.
 Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<double>& mass_t_per_mm,
                                      const Eigen::RowVectorXd& on_nodes = {});
 
-/// Mass of a round rod a length, t/mm: density * pi/4 D^2.
+/// Mass per length of a round rod, t/mm: density * pi/4 D^2.
 double round_mass_t_per_mm(double density_kg_m3, double diameter_mm);
 
 struct MovingState {
   State state;
-  Eigen::Matrix3Xd velocity;  ///< of every column, mm/s
+  Eigen::Matrix3Xd velocity;  ///< velocity of every column, mm/s
   double time = 0;            ///< s
 
   static MovingState at_rest(State state);
@@ -33,7 +34,7 @@ struct MovingState {
 struct DynamicsOptions {
   double step_s = 1e-3;
   double damping_per_s = 0;    ///< mass-proportional: force -damping * mass * velocity
-  double tolerance_mm = 1e-9;  ///< of Newton's corrections in a step
+  double tolerance_mm = 1e-9;  ///< largest move in the last correction of a step
   int most_iterations = 30;
 };
 
@@ -51,7 +52,7 @@ struct RestOptions {
 
 /// TR-BDF2 with mass-proportional damping [Bank et al. 1985]: the trapezoidal rule over gamma h,
 /// then the two-step backward formula up to h, gamma = 2 - sqrt 2. Both parts have the same matrix
-/// dE''/dx^2 + m (1/w^2 + c/w), w = (1 - 1/sqrt 2) h. The method is of second order and L-stable:
+/// d^2E/dx^2 + m (1/w^2 + c/w), w = (1 - 1/sqrt 2) h. The method is of second order and L-stable:
 /// oscillations faster than the step are damped at once, whereas the midpoint rule would preserve
 /// them.
 class DampedMotion {
@@ -60,7 +61,7 @@ class DampedMotion {
   DampedMotion(const Model& model, Eigen::Matrix3Xd mass, const DynamicsOptions& options,
                const ExternalLoads& outside = {}, std::vector<Constraint> holds = {});
 
-  /// One step; on failure (false), also of one that is stopped, the motion is unchanged.
+  /// Takes one step. Returns false if that fails or is cancelled; then the motion is unchanged.
   bool step(MovingState& moving, const Watch& watch = unwatched);
 
   /// Steps until equilibrium. A step that fails is halved; successful steps grow again. `seen` is

@@ -20,7 +20,8 @@ struct Pairs {
 
 struct Stopped {};
 
-/// M^1/2 K^-1 M^1/2 orthogonal to the vectors found before; the operator interface of Spectra.
+/// The operator M^1/2 K^-1 M^1/2 on vectors orthogonal to those found before, as Spectra expects
+/// it.
 class InverseBeside {
  public:
   using Scalar = double;
@@ -31,7 +32,7 @@ class InverseBeside {
   Index rows() const { return root_.size(); }
   Index cols() const { return root_.size(); }
   void perform_op(const double* in, double* out) const {
-    // an iteration of Spectra's has no other end
+    // only an exception ends an iteration of Spectra
     if (watch_.cancelled()) throw Stopped{};
     Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(in, rows());
     take_out(x);
@@ -72,7 +73,7 @@ Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index 
   } catch (const Stopped&) {
     return stopped();
   } catch (const std::runtime_error&) {
-    // Spectra's word for what is not finite
+    // Spectra throws this for values that are not finite
   }
   if (next.values.size() == 0)
     return fail(Fault::no_equilibrium, "the lowest modes of the state do not converge");
@@ -82,7 +83,7 @@ Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index 
   Index taken = 0;
   while (taken < next.values.size() && sign * next.values[taken] > least) ++taken;
   if (taken == 0) return false;
-  // what was there and what is new, in order
+  // known and new pairs together, in order
   Eigen::VectorXd values(known + taken);
   values << found.values, next.values.head(taken);
   std::vector<Index> order(std::size_t(values.size()));
@@ -95,12 +96,12 @@ Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index 
   return true;
 }
 
-/// The `count` eigenvalues of largest size of one sign, of which `all` exist.
+/// Computes the `count` eigenvalues of largest size among the `all` that have the sign of `rule`.
 Result<Pairs> largest(const Linearisation& system, const Eigen::Matrix3Xd& root, Index count,
                       Index all, Spectra::SortRule rule, const Watch& watch) {
-  constexpr Index a_few = 4;  // that a run may have missed
+  constexpr Index a_few = 4;  // eigenvalues that a run may have missed
   Pairs found{Eigen::VectorXd(0), Eigen::MatrixXd(root.size(), 0)};
-  // the number of modes does not matter if only the nearest is requested
+  // whether there are equal eigenvalues does not matter if one mode is requested
   const Index runs = count > 1 ? all : count;
   for (Index ask = count, run = 0; run < runs && found.values.size() < all; ask = a_few, ++run) {
     const InverseBeside inverse(system, root, found.vectors, watch);
@@ -131,7 +132,7 @@ Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matri
   const auto put = [&](double inverse, const auto& vector) {
     const double lambda = 1 / (inverse * unit);
     modes.values[Index(modes.shapes.size())] = lambda;
-    // K^-1 M of a mode is the mode, in which unknowns without mass follow
+    // lambda K^-1 M maps a mode to itself and computes its unknowns without mass
     Eigen::Matrix3Xd shape = root.cwiseProduct(vector.reshaped(3, root.cols())), force;
     system.solve(shape);
     shape *= lambda * std::sqrt(unit);
@@ -146,7 +147,7 @@ Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matri
     modes.residuals.push_back((force - inertia).norm() / inertia.norm());
     modes.shapes.push_back(std::move(shape));
   };
-  // the inverse nearest to zero is that of the lowest
+  // of the negative ones, the inverse nearest to zero belongs to the lowest eigenvalue
   for (Index k = soft->values.size(); k-- > 0;) put(soft->values[k], soft->vectors.col(k));
   for (Index k = 0; k < stiff->values.size(); ++k) put(stiff->values[k], stiff->vectors.col(k));
   return modes;

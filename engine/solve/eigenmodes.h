@@ -19,12 +19,12 @@ struct Eigenmodes {
 
 /// The `count` modes of smallest lambda of K v = lambda M v: K is the Hessian of the energy that
 /// `system` was last factorised with, on the unconstrained components; M is the diagonal `mass`,
-/// one entry per unknown, zero for unknowns that follow. The `negative` eigenvalues below zero
-/// (counted by the inertia) come first, nearest to zero first. Lanczos' method on M^1/2 K^-1 M^1/2
-/// [Ericsson, Ruhe 1980] is repeated orthogonal to the modes found until none is nearer to zero: a
-/// single start vector misses equal eigenvalues, which symmetric shells have in pairs. Returns
-/// fewer than `count` if fewer unknowns have mass. Errors: cancelled; no_equilibrium if it does not
-/// converge.
+/// one entry per unknown, zero for unknowns that follow. If the number `negative` of eigenvalues
+/// below zero (by the inertia) exceeds `count`, those nearest to zero are computed. Lanczos' method
+/// on M^1/2 K^-1 M^1/2 [Ericsson, Ruhe 1980] is repeated orthogonal to the modes found until none
+/// is nearer to zero: a single start vector misses equal eigenvalues, which symmetric shells have
+/// in pairs. Returns fewer than `count` if fewer unknowns have mass. Errors: cancelled;
+/// no_equilibrium if it does not converge.
 Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matrix3Xd& mass,
                                  int count, int negative, const Watch& watch);
 

@@ -15,7 +15,8 @@ namespace {
 constexpr int most_steps = 1000;
 constexpr double smallest_shift = 1e-9, largest_shift = 1e8;  // N/mm
 
-/// What shifts are changed by: twofold at first, then the square of the last, until reset.
+/// Factors by which the shift changes: first 2, then each the square of the last, at most `most`,
+/// until reset.
 class ShiftGrowth {
  public:
   explicit ShiftGrowth(double most) : most_(most) {}
@@ -37,7 +38,8 @@ class GradientFlow {
   GradientFlow(const GradientFlow&) = delete;
   GradientFlow& operator=(const GradientFlow&) = delete;
 
-  /// One step; true if it was Newton's own and short. Nothing: no shift serves.
+  /// Takes one step. Returns whether it was a short step without shift; empty if no shift gives a
+  /// step.
   std::optional<bool> step() {
     bool at_once = true;
     ShiftGrowth up{16};
@@ -55,8 +57,8 @@ class GradientFlow {
   }
 
  private:
-  // in steps: longer corrections are computed again with a larger shift; an equilibrium is within
-  // `near`
+  // over step_mm_: a correction above `longest` is computed again with a larger shift; one below
+  // `near` shows that an equilibrium is near
   static constexpr double longest = 2, near = 0.1;
 
   bool go(double fraction, bool at_once) {
@@ -64,7 +66,7 @@ class GradientFlow {
     fraction = std::min(fraction, system_.clear_fraction(state_, dx_));
     system_.apply(dx_, state_, fraction);
     const bool newton = shift_ == 0 && max_column_norm(dx_) < near * step_mm_;
-    // less and less shift as long as that goes well
+    // the shift decreases as long as steps succeed at once
     if (at_once && fraction == 1) {
       shift_ /= down_.next();
       if (shift_ < smallest_shift) shift_ = 0;
@@ -113,22 +115,22 @@ class Descent {
   Descent(const Descent&) = delete;
   Descent& operator=(const Descent&) = delete;
 
-  /// Factorises the mixed form at the state, or what is near it and positive definite.
+  /// Factorises the mixed form at the state, weakened or shifted until it is positive definite.
   Inertia factorise(double last_move_mm) {
     return options_.rough ? from_what_served(last_move_mm) : from_the_form_itself();
   }
 
-  /// Whether the last matrix was the mixed form as it is.
+  /// Whether the last matrix was the mixed form itself, neither weakened nor shifted.
   bool exact() const { return weakening_ == 0 && shift_ == 0; }
 
-  /// Moves along dx as long as the energy decreases. False: contact allows no decrease.
+  /// Moves along dx by a step at which the energy decreases. Returns false if contact allows none.
   bool go(const Eigen::Matrix3Xd& dx) {
     const double begin = energy_at(state_), slope = product(system_.assembly().gradient, dx);
     const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
     const auto falls = [&](double step) {
       return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);
     };
-    const auto clear = [&] {  // the rods recovered their lengths by other means
+    const auto clear = [&] {  // restoring lengths has moved nodes in other directions than dx
       return system_.clear_fraction(state_, trial_.x - state_.x) == 1;
     };
     double step = system_.clear_fraction(state_, dx);
@@ -140,15 +142,20 @@ class Descent {
       system_.restore_lengths(force + step * change, trial_);
       if (falls(step) && clear()) break;
     }
+    if (!(step > 1e-10)) {  // none: the trial may have passed rods through one another
+      trial_ = state_;
+      move_to(system_.model(), state_.x + step * dx, trial_);
+    }
     std::swap(state_, trial_);
     state_.force = force + step * change;
     return true;
   }
 
  private:
-  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // of 1, N/mm
+  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // fraction, N/mm
 
-  /// The form as it is comes first at every step.
+  /// Every step tries no shift and a quarter of the last weakening first, then more weakening, then
+  /// a shift.
   Inertia from_the_form_itself() {
     const double shift = shift_ / 4;
     shift_ = 0;
@@ -163,8 +170,8 @@ class Descent {
     return shifted(1e-6);
   }
 
-  /// Tries a little less shift or weakening than served last; after a failure it keeps to that for
-  /// some steps.
+  /// Tries less shift or weakening than the last step used; after a failure the weakening of the
+  /// last step is used for some steps.
   Inertia from_what_served(double last_move_mm) {
     const double served = weakening_;
     if (shift_ > 0)
@@ -219,8 +226,8 @@ class Descent {
   double near_mm_ = 0;           // corrections below this are near the end
 };
 
-/// Whether the energy's Hessian is positive definite, but for round-off: a rod between two pins may
-/// turn about their line without any force.
+/// Whether the energy's Hessian is positive definite up to round-off: a rod between two pins may
+/// rotate about the line through them without any force.
 bool is_minimum(Linearisation& system, const State& state, double EA_scale) {
   constexpr double round_off = 1e-12;
   const double largest = system.at(state, false, 0, EA_scale).largest_pivot;
@@ -272,17 +279,17 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
   if (down.outcome == Outcome::lost)
     return fail(Fault::no_equilibrium,
-                "rods that press on one another, or cross without a joint, leave no path to an "
-                "equilibrium");
-  // nothing moves any more, but a mode without stiffness keeps it from being a minimum
+                "no equilibrium can be reached without rods passing through each other");
+  // the corrections have converged, but not to a minimum: the state is a saddle
   if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
     system.at(state, false);
     return leave_saddle(system, state, softest_mode(system, departure.start, watch), departure,
                         watch);
   }
-  return fail(Fault::no_equilibrium,
-              fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
-                          down.iterations, down.last_move_mm));
+  return fail(
+      Fault::no_equilibrium,
+      fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
+                  std::min(down.iterations, MinimiseOptions{}.most_iterations), down.last_move_mm));
 }
 
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,

@@ -1,5 +1,5 @@
-// How an equilibrium is found from a state that is not one: by descent of the energy, slowly or by
-// Newton's method, and away from saddles.
+// Finds an equilibrium from a state that is not one: by gradient flow, by minimising the energy
+// with Newton's method, and by descent from saddles.
 #pragma once
 
 #include <functional>
@@ -12,20 +12,20 @@
 
 namespace gridshell {
 
-// Down the energy slowly, along its steepest slope. Where that ends does not depend on the mesh;
-// where long steps end does.
+// Steepest descent of the energy in small steps. The equilibrium that it reaches does not depend on
+// the mesh; that of long steps does.
 
-/// As a shell without mass in a viscous fluid would go: dx/ds = -dE/dx, by linearly implicit Euler
-/// steps of the mixed form, (K + m I) dx = -dE/dx, m about as small as keeps every node's move
-/// within `step_mm` (a move of up to twice that is cut to it). Ends where Newton's own correction,
-/// m = 0, is a tenth of that or less and K is positive definite: near a minimum, which minimise()
-/// then finds. `seen` gets the state after every step but the last and ends the flow, as reached,
-/// where it says so. `state.force` is where the mixed form starts. Outcomes: reached, not_converged
-/// (steps ran out), not_finite, cancelled.
+/// Moves the state like a shell without mass in a viscous fluid, dx/ds = -dE/dx, by linearly
+/// implicit Euler steps of the mixed form, (K + m I) dx = -dE/dx. The shift m is about the smallest
+/// with which no node moves further than `step_mm` (a move of up to twice that is cut to it). Ends
+/// where Newton's correction (m = 0) is at most a tenth of `step_mm` and K is positive definite:
+/// near a minimum, which minimise() then finds. `seen` is called with the state after every step
+/// but the last; if it returns true, the flow ends with outcome reached. `state.force` is the start
+/// of the mixed form. Outcomes: reached, not_converged (after 1000 steps), not_finite, cancelled.
 Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch,
                       const std::function<bool(const State&)>& seen = {});
 
-// Down the energy to a minimum from far away, where full Newton steps lead elsewhere.
+// Minimisation of the energy from far away, where full Newton steps would lead to another state.
 
 struct MinimiseOptions {
   double tolerance_mm = 1e-5;
@@ -51,25 +51,25 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
 
 // Search for an equilibrium near an unstable state, or after a path lost its branch.
 
-/// How an unstable state is left.
+/// How the descent from an unstable state is chosen.
 struct BranchSwitch {
-  /// Start vector over all columns; its projection on the lowest modes is followed; empty: any.
+  /// Start vector of softest_mode(), 3 x columns; empty: generic_direction().
   Eigen::Matrix3Xd start;
   BranchSide side = BranchSide::lower;
-  double amplitude_mm = 0.5;  ///< of the push: far above round-off, far below a cell
+  double amplitude_mm = 0.5;  ///< perturbation: far above round-off, far below the size of a cell
   double step_mm = 0.5;       ///< step of the descent, gradient_flow()
   /// Symmetries of the mesh. If one maps one side of the saddle to the other, only one descent is
   /// computed.
   std::vector<MeshSymmetry> symmetries = {};
 };
 
-/// A direction with a part along any mode: no symmetry of a net leaves it unchanged. Columns are at
-/// most as long as one.
+/// A direction, 3 x columns, with a component along every mode: no symmetry of a net leaves it
+/// unchanged. The norm of each column is at most 1.
 Eigen::Matrix3Xd generic_direction(Eigen::Index columns);
 
 /// Lowest mode of the Hessian last assembled in `system`, by inverse iteration from `start` (empty:
-/// any): a unit vector over all columns, zero at constrained components. Its sign, and the
-/// combination of several modes of equal eigenvalue, are those of the projection of `start`.
+/// generic_direction()): a unit vector, 3 x columns, zero at constrained components. Its sign, and
+/// the combination of several modes of equal eigenvalue, are those of the projection of `start`.
 Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
                               const Watch& watch);
 

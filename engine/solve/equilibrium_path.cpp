@@ -23,6 +23,7 @@ PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
 void PathFollower::resume(const PathPoint& point, const PathPoint* across) {
   motion_.apply_loads(system_, point.t);
   now_ = point;
+  last_ = {};
   has_before_ = false;
   across_ = nullptr;
   if (!across || across->velocity.x.size() == 0 || point.velocity.x.size() == 0) return;
@@ -36,7 +37,7 @@ void PathFollower::take_velocity(PathPoint& point) {
 
 PathReport PathFollower::start(double t, State state, const Watch& watch) {
   PathReport report;
-  // from the same point the same path, whatever was followed before
+  // the path depends on its start alone, not on what was followed before
   has_before_ = false;
   across_ = nullptr;
   now_ = {t, std::move(state)};
@@ -87,7 +88,7 @@ State PathFollower::predict(double t) const {
   // the change of the tangent since the point before gives the curvature of the path
   const double bend = has_before_ ? 0.5 * h * h / (now_.t - before_.t) : 0.0;
   State guess = now_.state;
-  // a start that failed knows no tangent
+  // after a failed start there is no tangent
   if (now_.velocity.x.size() == 0) {
     motion_.impose(system_, t, guess);
     return guess;
@@ -109,7 +110,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   if (system_.clear_fraction(now_.state, change) < 1) return Outcome::lost;
   const double predicted_move = max_column_norm(change);
   const ContactPairs& contact = system_.model().contact;
-  // rods that begin to touch lag behind
+  // rods that begin to touch move less than predicted
   const double fraction = contact.any() ? 1 : 0.5;
   const double allowed = std::min(options_.largest_move * options_.spacing_mm,
                                   fraction * predicted_move + 1e-3 * options_.spacing_mm);
@@ -119,7 +120,8 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   // a prediction that needs more iterations may be past a fold, next to another branch
   newton_options.most_iterations = 5;
   if (contact.any()) {
-    // rods that begin to touch need more iterations: a tangent sees them only within the gap
+    // rods that begin to touch need more iterations: the tangent contains contact only within the
+    // gap
     newton_options.most_iterations = 12;
     newton_options.tolerance_mm =
         std::min(newton_options.tolerance_mm, 0.1 * contact.barrier.gap_mm);
@@ -169,19 +171,17 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
     const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
     const Outcome outcome = step(target, exact || target == t, report.last, watch);
-    ++report.steps;
     if (outcome == Outcome::reached) {
       report.t = now_.t;
-      // the prediction is off by a term of third order in h
+      // the error of the prediction is of third order in h
       const double aim = options_.target_move * options_.spacing_mm;
       const double grow = std::cbrt(aim / std::max(report.last.first_move_mm, 1e-3 * aim));
       now_.step = std::max(h * std::clamp(grow, 0.4, 2.5), options_.smallest_step);
       continue;
     }
-    ++report.halvings;
     now_.step = h / 2;
     if (now_.step >= options_.smallest_step) continue;
-    // after one correction a point near the end of the path may lie past it
+    // points that are corrected only once may be past the end of the path: follow it again exactly
     if (!exact) {
       exact = true;
       resume(from);

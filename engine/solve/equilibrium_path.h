@@ -16,7 +16,7 @@ struct PathPoint {
   static constexpr double first_step = 0.05;  // in t
   /// Path parameter, dimensionless.
   double t = 0;
-  /// Nodes (mm), axial forces (N) and twist angles (rad).
+  /// Positions and twist angles (mm, see Model), axial forces (N).
   State state;
   State velocity = {};       ///< derivative of `state` by t; it has no frames
   double step = first_step;  ///< next step in t, from the error of the last prediction
@@ -32,10 +32,10 @@ struct PathOptions {
   double largest_move = 0.1;    ///< largest accepted correction, in d; above it the step is halved
   double largest_step = 0.25;   ///< in t
   double smallest_step = 1e-5;  ///< in t; below it the path counts as lost
-  double tolerance_mm =
-      /// Tolerance of requested points, mm; between them a single correction is made.
-      1e-6;
-  /// cosine of the angle between two edges at which they count as folded
+  /// Newton's method ends at requested points when no node moves further, mm; at points between
+  /// them when none moves further than `target_move`.
+  double tolerance_mm = 1e-6;
+  /// cosine of the angle between two edges below which they count as folded
   double widest_turn = -0.5;
   bool allow_unstable = false;  ///< continue through states with negative pivots
   Team* team = nullptr;         ///< threads for large matrices; null: one thread
@@ -44,8 +44,7 @@ struct PathOptions {
 struct PathReport {
   Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite or cancelled
   double t = 0;                    ///< path parameter up to which the path is certified
-  int steps = 0, halvings = 0;
-  NewtonReport last;  ///< of the last converged point
+  NewtonReport last;               ///< Newton's report of the last converged point
 };
 
 /// Follows one model along one motion of its pinned nodes, forwards or backwards. It stores the
@@ -73,7 +72,7 @@ class PathFollower {
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
   const PathPoint& point() const { return now_; }
-  const NewtonReport& last() const { return last_; }  ///< of the current point
+  const NewtonReport& last() const { return last_; }  ///< report of the current point
   const PinnedMotion& motion() const { return motion_; }
 
  private:
@@ -86,7 +85,7 @@ class PathFollower {
   PathPoint now_, before_;
   NewtonReport last_;
   bool has_before_ = false;
-  const PathPoint* across_ = nullptr;  // of resume(), until the first step
+  const PathPoint* across_ = nullptr;  // argument of resume(), until the first step
 };
 
 }  // namespace gridshell

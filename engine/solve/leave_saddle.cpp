@@ -41,7 +41,7 @@ State pushed(const Model& model, const State& state, const Eigen::Matrix3Xd& by)
   return moved;
 }
 
-/// Whether one descent is enough because a symmetry gives the other.
+/// Whether one descent is enough: the other would end in the same state or in its mirror image.
 bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& push,
                       const BranchSwitch& departure) {
   if (departure.side != BranchSide::lower) return false;
@@ -57,8 +57,8 @@ bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen:
   const double here = product(slope, push), there = product(slope_at(against), push);
   if (std::abs(here - there) < 0.1 * std::abs(here + there)) return true;
 
-  // a symmetry that takes one side to the other and, of all that the energy is made of (rods,
-  // loads, field), the slope there with it
+  // a symmetry must map one side to the other and the gradients, too, hence all that the energy
+  // consists of (rods, loads, applied load)
   constexpr double same_mm = 1e-5, same_slope = 1e-6;
   const int nodes = model.nodes;
   if (model.has_spins() || !system.holds().empty()) return false;
@@ -77,8 +77,9 @@ bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen:
 /// enough.
 using WayDown = std::vector<Eigen::Matrix3Xf>;
 
-/// Whether a descent that has reached `x` meets the descent `other`: between two of its states, of
-/// which the first is `at`. The index only increases from call to call, since both descend.
+/// Whether a descent that has reached `x` meets the descent `other`: is within `near_mm` of the
+/// line between two of its successive states. `at` is the index of the first of the two; it only
+/// increases from call to call, since both descend.
 bool comes_upon(const WayDown& other, const Eigen::Matrix3Xd& x, double near_mm, std::size_t& at) {
   for (; at + 1 < other.size(); ++at) {
     const Eigen::Matrix3Xf along = other[at + 1] - other[at], from = x.cast<float>() - other[at];
@@ -133,7 +134,7 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
       return fail(Fault::cancelled, "stopped while searching for an equilibrium");
     if (!state) continue;
     if (one) return *state;
-    // of two mirror images always the same one is chosen, independent of round-off
+    // the choice between two mirror images must not depend on round-off
     const double found = system.energy_at(*state);
     if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
     lowest = found;

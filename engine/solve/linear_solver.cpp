@@ -10,8 +10,8 @@ namespace gridshell {
 namespace {
 
 /// Solver for Hessians with blocks outside the model's pattern, between edges that are close or
-/// nodes of a face: it has a pattern with these blocks and a plan for it. It also solves with the
-/// matrix of rank one.
+/// nodes of a face, for which it plans a factorisation of the extended pattern. It takes the
+/// Hessian's matrix of rank one into account, too.
 class BeyondSolver final : public LinearSolver {
  public:
   explicit BeyondSolver(const Model& model) : model_(model), apart_(make_block_cholesky(model)) {}
@@ -25,7 +25,7 @@ class BeyondSolver final : public LinearSolver {
       current_ = together_.get();
     }
     const bool joined = hessian.rank_one.cols() > 0;
-    // the matrix of rank one may take one away
+    // the matrix of rank one may reduce the number of negative eigenvalues by one
     current_->most_negative = most_negative + (joined && most_negative < 1000000);
     current_->team = team;
     current_->numbers = numbers;
@@ -55,7 +55,7 @@ class BeyondSolver final : public LinearSolver {
 
  private:
   /// K + c c^T by the factor of K [Sherman, Morrison 1950]: with w = K^-1 c and s = 1 + c.w a
-  /// solution x becomes x - w (c.x)/s, and where s < 0 an eigenvalue below zero is one above.
+  /// solution x becomes x - w (c.x)/s; if s < 0, the sum has one negative eigenvalue less than K.
   void join(Inertia& inertia) {
     response_ = rank_one_;
     current_->solve(response_);

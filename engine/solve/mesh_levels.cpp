@@ -28,7 +28,7 @@ namespace {
 
 constexpr int most_edges = 128;
 constexpr std::size_t most_meshes = 3;
-// on the safe side of what a plan leaves as a rule
+// factor on the expected error, so that a plan usually meets the tolerance
 constexpr double plan_margin = 1.25;
 
 }  // namespace

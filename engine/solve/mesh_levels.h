@@ -39,13 +39,14 @@ struct MeshLevel {
 /// Edges per segment of the meshes and their use: the last is followed, the others give its error.
 struct LevelPlan {
   std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before, at most three
-  /// whether positions are extrapolated over the last two (needs three, the third for the estimate)
+  /// Whether positions are extrapolated from the last two meshes. This needs three meshes: the
+  /// third gives the estimate.
   bool extrapolate = false;
   /// Whether forces and energies are extrapolated, also from two meshes: their error is then far
   /// below the estimate.
   bool extrapolate_forces = extrapolate;
-  /// A path ends at the first load step with an estimate above this, mm, or before which no coarser
-  /// mesh has had a state over an interval of `events_apart` of the path parameter.
+  /// Largest error estimate, mm: a path ends at the first load step with a larger one, or if no
+  /// coarser mesh has had a state over an interval `events_apart` of the path parameter.
   double allowed_mm = std::numeric_limits<double>::infinity();
   double events_apart = 0.05;
 
@@ -65,8 +66,8 @@ LevelPlan plan_of_mesh(int edges);
 /// Expected largest joint error of a plan, over the length scale: an estimate before a run.
 double expected_error(const LevelPlan& plan);
 
-/// The plan with a finest mesh of twice the edges, extrapolated. Empty if it would exceed 128 edges
-/// per segment.
+/// The plan with an additional mesh of twice as many edges, at most three meshes; with three,
+/// positions are extrapolated. Empty if it would exceed 128 edges per segment.
 std::optional<LevelPlan> finer(const LevelPlan& plan);
 
 }  // namespace gridshell

@@ -10,10 +10,10 @@
 namespace gridshell {
 namespace {
 
-constexpr int first_steps = 6;      // of a new image, before the next one grows from it
-constexpr int first_climb = 4;      // rounds before a saddle is looked for
-constexpr int climb_every = 4;      // rounds from then on
-constexpr double on_string = 2;     // spacings: how far a saddle may lie from the highest image
+constexpr int first_steps = 6;      // steps of a new image before the next one is added
+constexpr int first_climb = 4;      // rounds before the first search for a saddle
+constexpr int climb_every = 4;      // rounds between two searches
+constexpr double on_string = 2;     // largest distance of a saddle from the highest image, spacings
 constexpr double over_softest = 4;  // least shift, over the lowest stiffness of the first state
 
 class ElasticString {
@@ -21,7 +21,7 @@ class ElasticString {
   ElasticString(Linearisation& system, const PassOptions& options, const Watch& watch)
       : system_(system), options_(options), watch_(watch) {}
 
-  /// From both ends towards one another. False where an image cannot be brought down.
+  /// Adds images from both ends towards one another. Returns false if an image cannot take a step.
   bool grow(const State& a, const State& b) {
     least_shift_ = over_softest * softest_stiffness(a);
     spacing_ = (b.x - a.x).norm() / (options_.images - 1);
@@ -47,8 +47,7 @@ class ElasticString {
     return true;
   }
 
-  /// A step down of every image at right angles to the string. False where one
-  /// cannot be taken.
+  /// Every image takes a step down perpendicular to the string. Returns false if one cannot.
   bool go_down_all() {
     const std::vector<Image> before = images_;
     for (std::size_t k = 1; k + 1 < images_.size(); ++k) {
@@ -111,7 +110,7 @@ class ElasticString {
   struct Image {
     State state;
     double energy_mJ = 0;
-    double shift = 0;  ///< that served last
+    double shift = 0;  ///< shift of its last step
   };
 
   /// Lowest stiffness of a stable state, N/mm.
@@ -137,7 +136,8 @@ class ElasticString {
     return image;
   }
 
-  /// A step down in the plane through the image at right angles to `along`.
+  /// The image takes a step down in the plane through it perpendicular to `along`. Returns false if
+  /// it cannot.
   bool go_down(Image& image, const Eigen::Matrix3Xd& along) {
     if (watch_.cancelled()) return false;
     image.shift = std::max(least_shift_, image.shift / 2);

@@ -12,8 +12,8 @@ namespace gridshell {
 
 struct PassOptions {
   int images = 16;        ///< number of states along the path, both ends included
-  int most_rounds = 500;  ///< of the string
-  double step_mm = 2;     ///< no node moves further in one of them
+  int most_rounds = 500;  ///< in each round every state of the string takes one step
+  double step_mm = 2;     ///< no node moves further in one step
   /// perturbation of the first string, so that a symmetry of both ends does not constrain it
   double noise_mm = 0.01;
 };
@@ -24,16 +24,17 @@ struct MountainPass {
   State saddle;
   double energy_mJ = 0;
   double residual_N = 0;
-  Eigen::Matrix3Xd towards_b;     ///< its lowest mode, a unit vector, in the direction of b
+  Eigen::Matrix3Xd towards_b;     ///< lowest mode of the saddle, a unit vector, towards b
   std::vector<double> string_mJ;  ///< energies of the string, from a to b
 };
 
-/// A string of states that grows from both ends and goes down at right angles to itself, evened out
-/// after every step [E, Ren, Vanden-Eijnden 2007]; from its highest one Newton's method goes to the
-/// saddle, taken where it has one negative pivot and lies on the string. Steps are linearly
-/// implicit, (K + m I) dx = -dE/dx, so that stiff rods keep their lengths. `a` and `b` are stable
-/// states of one model with the same ends. What the saddle's two sides lead to is for the caller to
-/// find out: between them other states may lie.
+/// Finds the saddle by the string method [E, Ren, Vanden-Eijnden 2007]. A string of states grows
+/// from both ends, descends in energy perpendicular to itself, and is distributed evenly after
+/// every round. From its highest state Newton's method finds an equilibrium, which is accepted if
+/// it has one negative pivot and is on the string. Steps are linearly implicit, (K + m I) dx =
+/// -dE/dx, so that stiff rods retain their lengths. `a` and `b` are stable states of one model with
+/// the same ends. The caller must check that the saddle's two sides lead to `a` and `b`: there may
+/// be other states between them.
 MountainPass mountain_pass(Linearisation& system, const State& a, const State& b,
                            const PassOptions& options, const Watch& watch);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double coarse_mm = 0.03;  // tolerance on coarse meshes
 constexpr int most_coarse = 200;    // most iterations on each coarse mesh
-constexpr double push_off = 0.1;    // displacement from an unstable equilibrium, over d
+constexpr double push_off = 0.1;    // displacement from an unstable equilibrium, in d
 
 /// Makes the positions symmetric: their mean over the images under the group.
 void confine(const Model& model, const RodMesh& mesh, const std::vector<MeshSymmetry>& group,
@@ -89,7 +89,8 @@ Eigen::Matrix3Xd MultilevelRelaxation::stretched_flat(double t) const {
   return nodes;
 }
 
-/// Start of a level: the given nodes, or on a finer level the result of the coarser one.
+/// The state from which a level starts: the given nodes, or on a finer level the result of the
+/// coarser one.
 State MultilevelRelaxation::begin_of(const Level& level, double t, const Eigen::Matrix3Xd& nodes,
                                      const State& coarser) const {
   State state = level.from_coarser ? level.from_coarser->carry(coarser)

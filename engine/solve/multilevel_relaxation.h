@@ -15,8 +15,8 @@
 
 namespace gridshell {
 
-/// The meshes of one footprint, each with a factorisation of its own. Which state a rough one comes
-/// to is decided on the finest: coarse meshes have states that finer ones do not.
+/// The meshes of one footprint, each with a factorisation of its own. A result is an equilibrium of
+/// the finest mesh, as coarse meshes have states that finer ones do not have.
 class MultilevelRelaxation {
  public:
   /// Meshes of 1, 2, 4 ... edges per segment, the last `edges` (a power of two). Errors
@@ -25,8 +25,8 @@ class MultilevelRelaxation {
                                            RodModel rod_model, const BoundaryMotion& motion,
                                            const FlatFrame& flat, int edges);
 
-  /// The nodes of the coarsest mesh as the flat footprint would stretch and turn with its ends at
-  /// t: the affine map that takes the ends nearest to where they are.
+  /// Nodes of the coarsest mesh (3 x n, mm): the flat footprint under the affine map that brings
+  /// the ends closest to their positions at t.
   Eigen::Matrix3Xd stretched_flat(double t) const;
   /// Relaxes positions of the coarsest mesh's nodes, with prescribed positions at t, to a stable
   /// equilibrium on the finest mesh. Errors: no_equilibrium, cancelled.

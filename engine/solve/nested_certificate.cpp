@@ -15,8 +15,8 @@ namespace {
 
 // factors on the estimates, so that they are rarely below the true error. Measured on random
 // circles (tests/engine/simulate/test_actuation.cpp): the plain estimate is within 10 % of the
-// error, the extrapolated one falls short by up to 1.7 where the meshes are not quite in the
-// asymptotic range
+// error; the extrapolated one is too small by a factor of up to 1.7 where the meshes are not quite
+// in the asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
 // factor for forces and energies on two meshes: their errors have parts of both signs, which may
 // cancel in the difference
@@ -40,10 +40,6 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   if (ratio <= 1) return max_column_norm(step);
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
-
-}  // namespace
-
-namespace {
 
 constexpr double roughly = 0.02;  // relative accuracy of the lowest eigenvalue: its trend is used
 
@@ -126,7 +122,7 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
 /// its size) or if axial forces and strains disagree by more than `misfit`. The assembly is then
 /// that of the state found.
 void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) {
-  constexpr double misfit = 1e-5;  // of the largest axial force
+  constexpr double misfit = 1e-5;  // fraction of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
   const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
@@ -157,7 +153,7 @@ void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) 
 /// that of the factorisation, one correction before the state. The states before and after,
 /// predicted by that velocity, are corrected once. The assembly is then that of the state.
 void NestedShell::refine_velocity(Level& finest, const State& found) {
-  constexpr double offset = 2e-4;  // of t
+  constexpr double offset = 2e-4;  // step of the difference, in t
   Linearisation& system = *finest.system;
   const State velocity = state_.velocity;
   state_.velocity.x.setZero();
@@ -181,7 +177,7 @@ void NestedShell::refine_velocity(Level& finest, const State& found) {
 /// Whether the factorisation of the last correction, one correction before the state, is near
 /// enough to it to decide whether it is stable.
 bool NestedShell::vouches(const NewtonReport& report) const {
-  constexpr double same_state = 1e-3;  // of d
+  constexpr double same_state = 1e-3;  // in units of d
   return report.factored_move_mm <= same_state * options_.spacing_mm &&
          report.inertia.positive_definite();
 }
@@ -202,15 +198,15 @@ Inertia NestedShell::inertia_of(Level& level, const State& found,
   return inertia;
 }
 
-/// Computes the largest error of all nodes from the differences of the meshes at the nodes that
-/// they share, and extrapolates the positions if that is planned.
+/// Computes the largest error of all nodes from the differences of the meshes at their common
+/// nodes, and extrapolates the positions if that is planned.
 void NestedShell::estimate(const Energies& energies) {
   const auto last = std::size_t(this->last());
   const Level& finest = *levels_.back();
   const auto nodes = [&](std::size_t k) {
     return nodes_of(levels_[k]->mesh, levels_[k]->model, state_.levels[k].x);
   };
-  // nodes of the finer level less those of level k, where both have one; ghosts are no part of rods
+  // nodes of the finer level less those of level k, at the nodes that both levels have
   const auto step_to = [&](std::size_t k, const Eigen::Matrix3Xd& finer) -> Eigen::Matrix3Xd {
     Eigen::Matrix3Xd on_coarser;
     levels_[k]->from_finer->meshes().nodes(finer, on_coarser);

@@ -1,5 +1,5 @@
-// How the companions of the finest mesh follow it: their states differ from the finer one's
-// restriction by differences that are predicted along the path.
+// How the coarser levels, the companions, follow the finest one: the state of a companion differs
+// from the finer state, restricted to its mesh, by a difference that is predicted along the path.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -52,7 +52,7 @@ bool NestedShell::correct(Level& level, const State& base, State& state, NewtonR
 /// by the polynomial through the last states; through fewer of them if the weights of the
 /// polynomial sum to more than `most_weight`.
 State NestedShell::predicted(const Level& level, double t, const State& base) const {
-  // the last states in a row
+  // the last states without a gap
   std::span<const MeshDifference> known = level.differences;
   while (!known.empty() && !known.back().known()) known = known.first(known.size() - 1);
   for (std::size_t k = known.size(); k-- > 0;) {
@@ -101,7 +101,7 @@ bool NestedShell::measure_on(std::size_t k, const State& base, const NestedState
   const bool known = std::ranges::any_of(level.differences, &MeshDifference::known);
   for (const From from : {From::difference, From::restricted, From::down}) {
     if (from == From::difference && !known) continue;
-    // the descent is long: once
+    // the descent takes long: it is tried only at the first state of a path
     if (from == From::down && !level.differences.empty()) continue;
     State trial = from == From::difference ? predicted(level, state_.t, base) : base;
     if (k < before.levels.size())

@@ -16,7 +16,7 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
                                       const LevelPlan& plan, const PathOptions& options) {
   NestedShell shell(plan, options);
   shell.boundary_ = motion;
-  // contact knows no order
+  // errors with contact show no order of convergence
   if (rods.contact.barrier.acts()) shell.plan_.extrapolate = shell.plan_.extrapolate_forces = false;
   const auto numbers = std::make_shared<FactorNumbers>();
   for (int edges : plan.edges_per_segment) {
@@ -82,7 +82,7 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>&
                      Eigen::Matrix3Xd::Zero(3, state.x.cols()),
                      PathLaw::even,
                      {theirs.system->outside.load, 0}};
-    // a prescribed joint stays where it is shown: on one mesh it is off by that mesh's error
+    // a prescribed joint remains at its extrapolated position: that of one mesh has its mesh error
     for (const Constraint& hold : holds)
       level->motion.begin.col(hold.node) = other.state_.x.col(hold.node);
     level->system->hold(holds);
@@ -124,7 +124,7 @@ void NestedShell::forget() {
   for (auto& level : levels_) level->differences.clear();
 }
 
-/// From now on companions look for their states where these were.
+/// Sets the differences from which the next states of the companions are predicted.
 void NestedShell::remember(const std::vector<MeshDifference>& differences) {
   forget();
   for (std::size_t k = 0; k < differences.size(); ++k) levels_[k]->differences = {differences[k]};
@@ -182,7 +182,7 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
 
 NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const Watch& watch,
                                  const NestedPathPoint* across) {
-  struct Memory {  // what companions differ by stays that of the path
+  struct Memory {  // restores the differences of the path in the end
     std::vector<std::unique_ptr<Level>>& levels;
     std::vector<std::vector<MeshDifference>> differences;
     explicit Memory(std::vector<std::unique_ptr<Level>>& all) : levels(all) {
@@ -237,7 +237,7 @@ void NestedShell::drive(const PrescribedMove& drive) {
 void NestedShell::actuate(double t, const std::vector<Constraint>& holds, double load_scale) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
-    // a shell without a state yet is where its motion starts
+    // a shell without a state yet is at the start of its motion
     const Eigen::Matrix3Xd here = state_.levels.empty() ? level.motion.begin : state_.levels[k].x;
     level.motion = pinned_motion(level.mesh, boundary_);
     level.motion.load.change = load_scale;

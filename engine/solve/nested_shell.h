@@ -24,8 +24,8 @@ struct NestedState {
   /// States of the levels, coarse to fine. A coarser level without an equilibrium near the finer
   /// state has the finer state restricted to its mesh.
   std::vector<State> levels;
-  int measured = 0;              ///< the coarsest level in equilibrium; all finer levels are too
-  Eigen::Matrix3Xd x;            ///< 3 x nodes of the finest mesh, mm, extrapolated where planned
+  int measured = 0;    ///< the coarsest level in equilibrium whose finer levels all are, too
+  Eigen::Matrix3Xd x;  ///< 3 x nodes of the finest mesh, mm, extrapolated where planned
   double error_estimate_mm = 0;  ///< largest error of all columns of x; NaN without a coarser state
   double residual_N = 0;         ///< largest unbalanced force on the finest level
   Inertia inertia;               ///< numbers of pivots by sign of the finest level's Hessian
@@ -42,7 +42,7 @@ struct NestedState {
   /// Lowest eigenvalue of the finest level's Hessian, N/mm^2 (lowest_eigenvalue()), approximate;
   /// NaN if not requested or not stable.
   double lowest_eigenvalue = std::numeric_limits<double>::quiet_NaN();
-  Eigen::Matrix3Xf lowest_mode = {};  ///< its eigenvector, 3 x nodes and edges
+  Eigen::Matrix3Xf lowest_mode = {};  ///< its eigenvector, 3 x columns of the finest model
 };
 
 /// Vectors computed on nested meshes: those of the finest or, extrapolated, (4 fine - coarse)/3 of
@@ -79,7 +79,7 @@ struct MeshDifference {
 struct NestedPathPoint : PathPoint {
   /// One per coarser level.
   std::vector<MeshDifference> companions = {};
-  Inertia inertia = {};  ///< of the finest level's Hessian; not usable if not known
+  Inertia inertia = {};  ///< inertia of the finest level's Hessian; not usable if unknown
 };
 
 /// Parameter that the path reached and why it ended there: reached, unstable, folded, lost,
@@ -95,7 +95,7 @@ struct PrescribedMove {
   /// displacements of the constrained components, mm, one per constraint
   std::vector<Eigen::Vector3d> displacements = {};
   std::optional<BoundaryMotion> boundary =
-      {};                    ///< final positions of the edge points; empty: they stay
+      {};                    ///< final positions of the edge points; empty: they do not move
   LoadFactor load{1, 0};     ///< factor of the dead loads
   LoadFactor field{0, 0};    ///< factor of the applied load
   LoadFactor opening{0, 0};  ///< factor of the joint actuation
@@ -114,7 +114,8 @@ class NestedShell {
   /// Starts from a state of the finest mesh at t, in or near equilibrium: converges, certifies and
   /// estimates the error.
   NestedReport start(double t, const State& fine, const Watch& watch);
-  /// Starts the path from such a state without certificate and error estimate.
+  /// Starts the path at t from a state in or near equilibrium, without certificate and error
+  /// estimate.
   NestedReport place(double t, const State& fine, const Watch& watch = unwatched);
   /// Prolongates a state of the coarsest mesh at t to the finest, mesh by mesh, by Newton's method,
   /// or by minimising the energy if that fails. Errors: no_equilibrium, cancelled.
@@ -152,9 +153,9 @@ class NestedShell {
   const LevelPlan& plan() const { return plan_; }
   int levels() const { return int(levels_.size()); }
   int last() const { return levels() - 1; }  ///< index of the finest level
-  /// Whether positions of the current state are extrapolated; the next function: forces and
-  /// energies.
+  /// Whether positions of the current state are extrapolated.
   bool extrapolates() const { return plan_.extrapolate && state_.measured + 2 <= last(); }
+  /// Whether forces and energies of the current state are extrapolated.
   bool extrapolates_forces() const { return plan_.extrapolate_forces && state_.measured < last(); }
   const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
   const RodMesh& finest() const { return levels_.back()->mesh; }

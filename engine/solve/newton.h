@@ -39,11 +39,12 @@ struct Effort {
   }
 };
 
-/// A linearisation of a model's equilibrium equations at one state, and solves with it. With axial
-/// force N, unit tangent t and edge difference B dx = t . (dx_to - dx_from)/l:
+/// Linearises a model's equilibrium equations at a state and solves linear systems with the result.
+/// The mixed form, with axial force N, unit tangent t and edge difference
+/// B dx = t . (dx_to - dx_from)/l, is
 ///   (K_0 + EA/l t t^T + N/|e| (I - t t^T)) dx = -dE/dx,   N <- EA (strain + B dx),
-/// K_0 being the stiffness of everything else; at an equilibrium both forms agree. The object owns
-/// the factorisation and the working memory of one model.
+/// K_0 being the stiffness of everything else; at an equilibrium its matrix is the Hessian of the
+/// energy. The object owns the factorisation and the working memory of one model.
 /// With constraints B (3 x m over their nodes) every solve is that of the bordered system
 ///   K dx - B c = r,   B^T dx = 0,
 /// by block elimination with K + g B B^T instead of K: the solution is the same, and the matrix is
@@ -61,10 +62,10 @@ class Linearisation {
 
   /// Regularises directions without stiffness, such as the rotation of a rod about the line between
   /// its two hinges, so that they do not count as unstable: all later matrices have 5e-5 of the
-  /// least stiff rod's stiffness added to the diagonal, as much as a state that is corrected once
-  /// may lack.
+  /// least stiff rod's stiffness added to the diagonal. After a single correction the stiffness
+  /// along such a direction may be that far below zero.
   void bear_neutral_directions();
-  /// So much, N/mm.
+  /// What bear_neutral_directions() added to the diagonal, N/mm; else 0.
   double neutral_shift() const { return neutral_shift_; }
 
   /// Sets the constraints from the next at() on. Corrections do not change constrained components;
@@ -85,16 +86,17 @@ class Linearisation {
     solver_->most_negative = stop ? 0 : std::numeric_limits<int>::max();
   }
 
-  /// Who helps with large matrices from here on.
+  /// Sets the threads for large matrices; null: one thread.
   void work_with(Team* team) { solver_->team = team; }
-  /// Systems that share the memory of their factors take turns: what another one factorised in
-  /// between is factorised again when it is solved with.
+  /// Sets the memory of the factor's numbers, which several systems may use in turn: if another one
+  /// has overwritten the factor, solve() factorises again.
   void share(std::shared_ptr<FactorNumbers> numbers) { solver_->numbers = std::move(numbers); }
 
-  /// Gives back the memory of the matrices while nobody asks for them; what comes next is an at().
+  /// Frees the memory of the matrices. The next call must be at(): without it nothing can be
+  /// solved.
   void free_memory();
 
-  /// What acts from outside from the next assembly on.
+  /// External loads; changes count from the next assembly on.
   ExternalLoads outside;
 
   /// The energy's gradient at a state, without a factorisation.
@@ -114,26 +116,26 @@ class Linearisation {
   /// Solves K y = right_hand_side at the free columns, in place; constrained components of y are
   /// zero.
   void solve(Eigen::Matrix3Xd& right_hand_side) const;
-  /// Change of the axial forces with positions, EA B dx, at the linearisation point, and of the
-  /// torques of joints that open by `opening`.
+  /// First-order change of the axial forces, EA B dx, and of the torques of joint springs, if the
+  /// positions change by dx and the joint actuation by `opening`, at the linearisation point.
   Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx, double opening = 0) const;
   /// Corrects a state after a long step so that its axial forces and torques become `force` to
   /// first order: a straight step perpendicular to a bent rod stretches it to second order.
   void restore_lengths(const Eigen::VectorXd& force, State& state) const;
-  /// Moves the state by a fraction of dx and updates its forces as the mixed form does: of an
-  /// unknown of its own a fraction of the step is that fraction of its change.
+  /// Moves the state by a fraction of dx and updates its forces as the mixed form does: they change
+  /// by the same fraction of their change in the full step.
   void apply(const Eigen::Matrix3Xd& dx, State& state, double fraction = 1) const;
-  /// How much of dx keeps edges from going through one another (contact.h); 1 without contact.
+  /// Fraction of dx at which no edges pass through one another (contact.h); 1 without contact.
   double clear_fraction(const State& state, const Eigen::Matrix3Xd& dx) const {
     return gridshell::clear_fraction(model_, state.x, dx);
   }
 
-  /// Whether the axial force of every edge is that of its strain, but for so much of the largest:
-  /// what Newton's step leaves at second order is a residual of about that.
+  /// Whether the axial force of every edge agrees with its strain within `fraction` of the largest
+  /// axial force. A Newton step leaves a difference of second order, and a residual of that size.
   bool forces_agree(const State& state, double fraction) const;
 
   const Model& model() const { return model_; }
-  const Assembly& assembly() const { return assembly_; }  ///< of the last assembly
+  const Assembly& assembly() const { return assembly_; }  ///< result of the last assembly
   double residual() const;  ///< largest force on an unconstrained component of a free column, N
   const Effort& effort() const { return effort_; }
   Effort& effort() { return effort_; }
@@ -146,18 +148,18 @@ class Linearisation {
   std::unique_ptr<LinearSolver> solver_;
   Assembly assembly_;
   std::vector<Constraint> holds_;
-  std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, a matrix a column of B
+  std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, one matrix per column of B
   Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
   double EA_scale_ = 1;
   double neutral_shift_ = 0;  // N/mm
-  double shift_ = 0;          // of the last factorisation
+  double shift_ = 0;          // shift of the last factorisation
   mutable Effort effort_;     // solves may factorise again
 };
 
-/// Largest move of a column.
+/// Largest norm of a column, such as the largest move of a node; NaN if an entry is NaN.
 double max_column_norm(const Eigen::Matrix3Xd& dx);
-/// Sum of the products of their entries.
+/// Scalar product: the sum of the products of corresponding entries.
 double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 
 // How far a stable state is from losing its stability.
@@ -166,12 +168,13 @@ double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 /// with the constraints, L the length of rod, mm, that belongs to each node (`length`, one per
 /// node: half of each edge at the node). It is the stiffness of the lowest mode against a force per
 /// length of rod and does not depend on the mesh. By inverse iteration; NaN if the Hessian is not
-/// positive definite. Twist angles have no length and follow. `converged`: relative change at which
-/// the iteration ends.
+/// positive definite. Twist angles have no length: they adjust to the positions. `converged`:
+/// relative change at which the iteration ends.
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
                          const Watch& watch, double converged = 1e-7);
-/// Uses the last factorisation, which must be positive definite; `mode` is the start of the
-/// iteration next to any direction (empty: that alone) and returns the lowest mode.
+/// As above, with the last factorisation, which must be positive definite. The iteration starts
+/// from the sum of `mode` and a generic direction (empty `mode`: from the latter alone); `mode`
+/// then is the lowest mode.
 double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length,
                          Eigen::Matrix3Xd& mode, const Watch& watch, double converged);
 
@@ -190,21 +193,18 @@ struct NewtonOptions {
   /// force; empty: no condition.
   std::optional<double> trusted_misfit = {};
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: lost
-  double widest_turn = -0.5;   ///< edges that turn further than this cosine have folded
-  /// Inertia of an existing factorisation of a state nearby, with which the first two corrections
-  /// are computed; they show whether it converges. Empty: there is none.
-  std::optional<Inertia> factored = {};
+  double widest_turn = -0.5;   ///< adjacent edges with a smaller cosine of their angle have folded
 };
 
 struct NewtonReport {
   Outcome outcome =
       Outcome::not_converged;  ///< reached, folded, lost, not_finite, not_converged, cancelled
   int iterations = 0;          ///< corrections, with a new factorisation or an old one
-  double first_move_mm = 0;    ///< of the first correction: how good the guess was
+  double first_move_mm = 0;    ///< largest move in the first correction: the error of the guess
   double last_move_mm = 0;
   double factored_move_mm =
-      0;            ///< since the last factorisation, the first correction with it included
-  Inertia inertia;  ///< of the last factorisation (mixed form), the one given included
+      0;            ///< sum since the last factorisation, including the first correction with it
+  Inertia inertia;  ///< of the last factorisation (mixed form)
 };
 
 /// Full mixed Newton steps from `state` with the constraints; a factorisation is reused as long as

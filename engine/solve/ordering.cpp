@@ -43,7 +43,7 @@ class Dissection {
     const auto segment = [&](int free) {
       return model_.segment[std::size_t(model_.free_columns[std::size_t(free)])];
     };
-    // judged on the graph as it is before anything is eliminated
+    // chosen on the graph before anything is eliminated
     std::vector<int> first;
     for (int column : model_.inside) {
       const int node = model_.free_index[std::size_t(column)];
@@ -81,7 +81,7 @@ class Dissection {
     return order;
   }
 
-  /// neighbours of an eliminated node become neighbours of one another
+  /// Eliminates a node: its neighbours become neighbours of one another.
   void eliminate(int node) {
     order_.push_back(node);
     piece_[node] = -1;
@@ -101,14 +101,16 @@ class Dissection {
     return flat_[std::size_t(node)][std::size_t(axis)];
   }
 
-  /// best cut along one axis: left is coordinate <= at; its nodes with a neighbour right separate
+  /// Finds the best cut along one axis. Nodes with coordinate <= `at` are left of it; those of them
+  /// with a neighbour on the right are the separator.
   Cut best_cut(std::vector<int>& nodes, int axis) const {
     std::sort(nodes.begin(), nodes.end(), [&](int a, int b) {
       const double ca = coordinate(a, axis), cb = coordinate(b, axis);
       return ca != cb ? ca < cb : a < b;
     });
     const int count = int(nodes.size());
-    // opened[k]: separators that a cut after sorted position k gains; they close past their reach
+    // change[k]: size of the separator of a cut after sorted position k less that of the cut
+    // before; a node leaves the separator where the cut passes its last neighbour
     std::vector<int> change(count + 1, 0);
     std::vector<double> at(count);
     for (int k = 0; k < count; ++k) at[k] = coordinate(nodes[k], axis);
@@ -161,7 +163,8 @@ class Dissection {
     order_.insert(order_.end(), middle.begin(), middle.end());
   }
 
-  /// exact minimum degree on a small piece; nodes outside count as neighbours eliminated later
+  /// Orders a small piece by exact minimum degree; nodes outside count as neighbours that are
+  /// eliminated later.
   void minimum_degree(std::vector<int> nodes) {
     while (!nodes.empty()) {
       const auto pick = std::min_element(nodes.begin(), nodes.end(), [&](int a, int b) {
@@ -176,9 +179,9 @@ class Dissection {
   bool eliminated(int node) const { return piece_[node] < 0; }
 
   const Model& model_;
-  std::vector<std::vector<int>> graph_;  // of what is not eliminated yet
+  std::vector<std::vector<int>> graph_;  // neighbours among nodes that are not eliminated yet
   std::vector<std::array<double, 2>> flat_;
-  std::vector<int> around_;  // of the node that is eliminated
+  std::vector<int> around_;  // neighbours of the node that is eliminated
   std::vector<int> piece_;   // which piece a node is in; -1 once eliminated
   int pieces_ = 0;
   std::vector<int> order_;

@@ -72,7 +72,7 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
     pinned.begin.col(mesh.fixed_joints[k]) = from;
     pinned.change.col(mesh.fixed_joints[k]) = motion.end_joints.col(Eigen::Index(k)) - from;
   }
-  // a ghost lies in the prescribed direction from its edge point
+  // a ghost is in the prescribed direction from its edge point
   const auto place = [&](int ghost, Eigen::Index end, double side) {
     const double length = side * mesh.ghost_length;
     pinned.begin.col(ghost) = motion.begin.col(end) + length * motion.begin_tangent.col(end);

@@ -11,15 +11,16 @@
 
 namespace gridshell {
 
-/// How far a motion has come at path parameter t.
+/// Progress of a motion, 0 to 1, as a function of the path parameter t.
 enum class PathLaw {
-  square,  ///< t^2: a shell that buckles out of the flat rises as the square root of how far its
-           ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
+  square,  ///< t^2: a flat shell that buckles rises as the square root of the progress of its
+           ///< boundary, so positions are smooth in t = sqrt(progress) down to the flat
   even     ///< t
 };
 
-/// Progress of an actuation at path parameter t; the next function is the inverse.
+/// Progress of an actuation at path parameter t.
 inline double progress_at(double t) { return t * t; }
+/// Path parameter of a progress, the inverse of progress_at().
 inline double parameter_at(double progress) { return std::sqrt(std::max(progress, 0.0)); }
 
 /// A factor that grows with the motion.
@@ -35,8 +36,9 @@ struct EndRotation {
   double angle = 0;               ///< to t = 1, rad
   double stretch = 0;             ///< the arm's length is multiplied by 1 + t stretch
 
-  /// The arm at t; the next function: its derivative by t.
+  /// The arm at t.
   Eigen::Vector3d at(double t) const;
+  /// Derivative of the arm by t.
   Eigen::Vector3d rate(double t) const;
 };
 
@@ -53,13 +55,13 @@ struct PinnedMotion {
   PathLaw law = PathLaw::square;
   LoadFactor load{0, 1};
   LoadFactor field{0, 0};
-  LoadFactor opening{0, 0};             ///< of the joint actuation
+  LoadFactor opening{0, 0};             ///< factor of the joint actuation
   std::vector<EndRotation> turns = {};  ///< nodes that move on circles instead of lines
 
   double progress(double t) const { return law == PathLaw::square ? progress_at(t) : t; }
   double speed(double t) const { return law == PathLaw::square ? 2 * t : 1.0; }
   Eigen::Matrix3Xd at(double t) const;
-  Eigen::Matrix3Xd rate(double t) const;  ///< by t
+  Eigen::Matrix3Xd rate(double t) const;  ///< derivative by t
   double factor_at(const LoadFactor& growth, double t) const {
     return growth.begin + progress(t) * growth.change;
   }

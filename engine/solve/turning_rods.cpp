@@ -15,7 +15,7 @@ namespace {
 /// Whether the boundary keeps what fixes a rod, its hinges and prescribed directions, on one line.
 bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<int>& hinges,
                    const BoundaryMotion& motion) {
-  constexpr double on_line = 1e-9;  // of the line's length; sine of a direction's angle
+  constexpr double on_line = 1e-9;  // deviation over the line's length; sine of a direction's angle
   const FootprintRod& rod = footprint.rods[r];
   std::vector<Eigen::Vector3d> points, directions;
   for (const auto& [hold, end] : {std::pair(rod.begin, 2 * r), {rod.end, 2 * r + 1}}) {
@@ -62,12 +62,12 @@ std::vector<TurningRod> turning_rods(const Footprint& footprint, const ShellRods
     std::vector<int> hinges;
     std::ranges::copy_if(rod.joints, std::back_inserter(hinges),
                          [&](int joint) { return hold[std::size_t(joint)] > 1; });
-    // a law between rods passes moments
+    // a joint with a law between its rods transmits moments
     if (rod_model == RodModel::twist && std::ranges::any_of(hinges, [&](int joint) {
           return footprint.joints[std::size_t(joint)].centred;
         }))
       continue;
-    // one that spins freely turns about two hinges wherever they are, its section with it
+    // a rod that spins freely turns about any two hinges, its section with it
     const bool spins = !holds_direction(rod.begin) && !holds_direction(rod.end);
     const auto points = std::ssize(hinges) + is_held(rod.begin) + is_held(rod.end);
     if ((spins && points <= 2) || ((spins || rods.material(r).round_and_straight()) &&
@@ -112,7 +112,7 @@ double turn_towards(const Eigen::Matrix3Xd& to, const std::vector<TurningNodes>&
     for (const int node : rod.nodes) x.col(node) = from + turns.back() * (x.col(node) - from);
   }
   move_to(model, x, state);
-  // frames that are only carried along would leave the section behind
+  // move_to() has carried the frames in parallel: the sections must turn with their rods
   for (std::size_t k = 0; model.has_spins() && k < rods.size(); ++k) {
     if (rods[k].section < 0) continue;
     const Model::Rod& rod = model.rods[std::size_t(rods[k].section)];

@@ -19,25 +19,25 @@ struct TurningRod {
   std::vector<int> hinges;
 };
 
-/// Rods that may rotate about a line without force: those with at most two hinges, and those of
-/// which the boundary keeps all hinges on one line; with prescribed directions on that line only
-/// round straight ones.
+/// Finds the rods that may rotate about a line without force: rods with at most two hinges, and
+/// rods all of whose hinges the boundary keeps on one line. A rod with prescribed end directions is
+/// one of them only if it is round and straight and the directions are along that line.
 std::vector<TurningRod> turning_rods(const Footprint& footprint, const ShellRods& rods,
                                      const BoundaryMotion& motion, RodModel rod_model);
 
-/// The nodes of a rod that turns, and two of them that its line goes through.
+/// The nodes of a rod that turns; `from` and `to` are two nodes on its axis.
 struct TurningNodes {
   int from = 0, to = 0;
   std::vector<int> nodes;
-  int section = -1;  ///< the rod if its section turns with it, where no direction is prescribed
+  int section = -1;  ///< index of the rod if its section turns with it (no prescribed direction)
 };
 
-/// Those of the rods with two points of their line on a mesh.
+/// The nodes, on `mesh`, of those turning rods that have two different nodes on their axis.
 std::vector<TurningNodes> turning_nodes(const std::vector<TurningRod>& turning,
                                         const Footprint& footprint, const RodMesh& mesh);
 
-/// Rotates each rod about its line so that its nodes are nearest to `to`; returns the largest move,
-/// mm.
+/// Rotates each rod about its axis so that its nodes are nearest to those of `to`, relative to
+/// `from`. Returns the largest move, mm.
 double turn_towards(const Eigen::Matrix3Xd& to, const std::vector<TurningNodes>& rods,
                     const Model& model, State& state);
 

@@ -28,7 +28,7 @@ struct Measured {
   RunOutcome outcome = RunOutcome::right;
 };
 
-/// Several runs of a fast method, one of a slow one.
+/// Runs a fast method several times, a slow one once.
 Measured measure(BenchmarkProblem& study, const Method& method, double allowed,
                  const AccuracyOptions& options, const Watch& watch) {
   Measured measured;
@@ -45,7 +45,7 @@ Measured measure(BenchmarkProblem& study, const Method& method, double allowed,
   return measured;
 }
 
-/// What rows of both tables say.
+/// The columns that the rows of both tables have.
 template <class Row>
 Row row_of(const Method& method, const Measured& measured) {
   Row row;
@@ -69,7 +69,7 @@ Ladder ladder(Make make, int most_edges) {
 Method bend_method(int edges) { return plan_method("bend", {{edges}, false}); }
 Method twist_method(int edges) { return plan_method("twist", {{edges}, false}, {RodModel::twist}); }
 
-/// The engine's own: fractions of a second each.
+/// The engine's own methods, which take fractions of a second each.
 std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
   std::vector<Ladder> all{{{net_method()}, 1}, ladder(bend_method, options.most_edges)};
   std::vector<int> edges{4};
@@ -81,7 +81,7 @@ std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
   return all;
 }
 
-/// What others use.
+/// Methods of other programs and textbooks.
 std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
   const auto climb_to = [&](int edges, auto make) {
     return ladder(make, std::min(edges, options.most_edges));
@@ -101,7 +101,8 @@ std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
   return all;
 }
 
-/// Runs ladders on several threads; rows come back in the order of the ladders.
+/// Runs the methods of each sequence from coarse to fine meshes, the sequences on several threads.
+/// Rows are in the order of `ladders`; progress is reported from `from` to `to`.
 Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vector<Ladder>& ladders,
                                        int threads, const AccuracyOptions& options, Watch& watch,
                                        double from, double to) {
@@ -141,25 +142,25 @@ std::vector<AutoOutcome> standings_of(const std::vector<AccuracyRow>& rows) {
   for (const AccuracyRow& row : rows)
     if (is_auto(row)) {
       const double tolerance = auto_tolerances[standings.size()];
-      // errors within 5 % are the same, as on the front
+      // errors within 5 % count as equal
       standings.push_back({tolerance, row.error, row.cpu_s, fastest(rows, 1.05 * row.error),
                            fastest(rows, tolerance)});
     }
   return standings;
 }
 
-/// A circle's longest leg, of d.
+/// The longest leg of a circle over d.
 double leg_of(const preset::Footprint& footprint) {
   return footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
 }
 
-/// Sets the number of rods per direction, cut by the same rule.
+/// Sets the number of rods per direction; an odd one has a rod on the axis.
 void set_rods(preset::Footprint& footprint, int rods) {
   footprint.rods = rods;
   footprint.placement = rods % 2 ? Placement::on_axis : Placement::half;
 }
 
-/// The same shape with the spacing multiplied by `factor`.
+/// The preset's shape with its spacing multiplied by `factor`; a circle retains its longest leg.
 preset::Preset respaced(preset::Preset preset, double factor) {
   auto& footprint = preset.footprint;
   if (footprint.kind == preset::FootprintKind::circle) {
@@ -191,7 +192,7 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
   for (double factor : {2.0, 1.5, 1.0, 0.75, 0.5}) {
     watch.report(0.75 + 0.05 * step++);
     auto made = BenchmarkProblem::create(respaced(preset, factor), 16, watch);
-    if (!made) continue;  // a footprint that cannot be cut so, or whose path is lost
+    if (!made) continue;  // the footprint has no rods at this spacing, or its path is lost
     for (std::size_t k = 0; k < methods.size() && !watch.cancelled(); ++k) {
       if (slow[k]) continue;
       const Measured measured = measure(**made, methods[k], INFINITY, limited, watch);
@@ -212,7 +213,7 @@ Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const Accurac
   TRY(made, BenchmarkProblem::create(preset, options.finest, watch));
   BenchmarkProblem& study = **made;
   for (int k = 1; k <= options.most_edges; k *= 2)
-    (void)study.problem(k, watch);  // a mesh without one is refused where it is used
+    (void)study.problem(k, watch);  // a method refuses a mesh without a problem
   AccuracyStudy result;
   result.reference_error = study.reference_error();
   TRY(own, climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05));

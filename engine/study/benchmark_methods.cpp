@@ -14,7 +14,7 @@ namespace {
 
 using record::RunOutcome;
 
-/// A method that takes a problem on one mesh; refused where that has none.
+/// A method that solves the problem on one mesh; refused if the mesh has none.
 template <class Run>
 Method mesh_method(std::string_view name, int edges, Run run) {
   return {std::string(name), [edges, run](BenchmarkProblem& study, const Watch& watch) {
@@ -23,20 +23,20 @@ Method mesh_method(std::string_view name, int edges, Run run) {
           }};
 }
 
-constexpr double flat = 1e-3;  // of the length scale
+constexpr double flat = 1e-3;  // largest height of a planar state, over the length scale
 
-/// Height of the joints above one another, over the length scale.
+/// Height of the highest joint above the lowest, over the length scale.
 double height_of(const BenchmarkProblem& study, const Eigen::Matrix3Xd& x) {
   const auto z = x.leftCols(study.joints()).row(2);
   return (z.maxCoeff() - z.minCoeff()) / study.scale_mm();
 }
 
-/// What a state that is not the right one is on its own mesh.
+/// Classifies a result that is not the reference's equilibrium.
 RunOutcome kind_of(const BenchmarkProblem& study, const Problem& problem, const Eigen::Matrix3Xd& x,
                    double near_mm) {
   if (height_of(study, x) < flat && height_of(study, problem.end.x) > 10 * flat)
     return RunOutcome::planar_saddle;
-  // an equilibrium of another boundary is none of this one
+  // an equilibrium with its pinned nodes elsewhere does not count
   for (int node = 0; node < problem.model.nodes; ++node)
     if (problem.model.pinned(node) && (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
       return RunOutcome::silent_wrong;
@@ -48,9 +48,9 @@ RunOutcome kind_of(const BenchmarkProblem& study, const Problem& problem, const 
   return max_column_norm(dx) < near_mm ? RunOutcome::other_state : RunOutcome::silent_wrong;
 }
 
-constexpr int most_iterations = 400;  // a load step
+constexpr int most_iterations = 400;  // per load step
 
-/// Full or shortened Newton steps on the energy's Hessian, whatever its inertia.
+/// Newton's method with full or shortened steps on the energy's Hessian, whatever its inertia.
 RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOptions& options,
                           const Watch& watch) {
   Eigen::Matrix3Xd dx;
@@ -65,7 +65,7 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
       return RunOutcome::blow_up;
     double factor = 1;
     if (options.globalisation == Globalisation::line_search) {
-      // the residual falls along Newton's direction, whatever the inertia
+      // Newton's direction reduces the residual even if the Hessian is indefinite
       const auto unbalanced = [&](Eigen::Matrix3Xd gradient) {
         clear_held(system.model(), gradient);
         return gradient.norm();
@@ -86,7 +86,8 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
   return RunOutcome::not_converged;
 }
 
-/// The Hessian shifted until it is positive definite, the step shortened until the energy falls.
+/// Newton's method with the Hessian shifted until it is positive definite and the step shortened
+/// until the energy falls.
 RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions& options,
                         const Watch& watch) {
   const auto energy_at = [&](const State& at) {
@@ -159,7 +160,7 @@ MethodResult follow_path(BenchmarkProblem& study, FollowOptions options, const W
       report = study.go(shell, watch, options.stops);
       result.seconds += cpu_seconds_now() - begin;
     }
-    // where it is refused the report names the reason
+    // an experiment reports why it did not reach its end, so the method refused
     result.claim = report.end == Outcome::reached     ? RunOutcome::right
                    : report.end == Outcome::cancelled ? RunOutcome::too_slow
                                                       : RunOutcome::refused;
@@ -171,7 +172,7 @@ MethodResult follow_path(BenchmarkProblem& study, FollowOptions options, const W
     if (result.claim != RunOutcome::right || !options.refine || met) return result;
     const auto next = finer(options.plan);
     if (!next) {
-      result.claim = RunOutcome::refused;  // the tolerance is not met, and it says so
+      result.claim = RunOutcome::refused;  // an experiment reports that the tolerance is not met
       return result;
     }
     options.plan = *next;
@@ -191,8 +192,6 @@ Method auto_method(double tolerance) {
             return follow_path(study, {plan_levels(tolerance), tolerance, true}, watch);
           }};
 }
-
-// Newton's method as in textbooks.
 
 MethodResult march(const Problem& problem, const MarchOptions& options, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);

@@ -17,10 +17,10 @@ namespace gridshell::study {
 namespace {
 
 constexpr double first_shortening = 0.02;
-constexpr double push_step = 0.02;  // of the length scale, as in the experiment
+constexpr double push_step = 0.02;  // over the length scale, as in experiments
 constexpr double exact = 1e-8;      // tolerance of references, over the length scale
 
-/// Positions of a mesh's nodes on the net; ghosts at the end of the motion.
+/// A mesh with its nodes on the net and its ghosts where the motion ends.
 Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model,
                      const PinnedMotion& motion) {
   TRY(net, places_on_net(scene, mesh));
@@ -93,7 +93,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
     if (*t >= 1)
       return invalid("the boundary shortens the rods by less than 2 %: too little for a study");
     t_ = *t;
-    // as experiments do it: on the coarsest mesh, which decides the branch
+    // as in experiments the coarsest mesh decides the branch
     TRY(first, first_buckled(reference.system(0), reference.mesh(0), reference.motion(0), t_,
                              scene_->seed, scene_->flat, watch));
     TRY(buckled, reference.refined(t_, *first, watch));
@@ -125,7 +125,7 @@ void BenchmarkProblem::push(NestedShell& shell) const {
 
 ShellRods BenchmarkProblem::rods_on(const ModelVariant& on) const {
   constexpr double shear_over_young =
-      31.0 / 83;  // of Nitinol; rods without natural twist do not twist
+      31.0 / 83;  // Nitinol; the value has no effect on rods without natural twist
   ShellRods rods = scene_->rods;
   if (on.rod_model == RodModel::bend) return rods;
   for (RodMaterial& material : rods.materials) material.GJ = 2 * material.EI1 * shear_over_young;

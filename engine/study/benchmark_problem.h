@@ -1,5 +1,5 @@
-// The problem that every method of a study is given: from one certified state to the next, on any
-// mesh, and the answers to judge it by.
+// The problem that all methods of a study solve, from one certified state to another on any mesh,
+// and the reference solution by which they are judged.
 #pragma once
 
 #include <map>
@@ -21,20 +21,22 @@ enum class Task { actuation, beside_net, push };
 /// Rod model and joints of a method.
 struct ModelVariant {
   RodModel rod_model = RodModel::bend;
-  double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
+  double spring_N_per_mm = 0;  ///< stiffness of spring joints; 0: shared nodes
 };
 
-/// The task on one mesh. Pinned nodes move from t to 1; of a push the joint is one of them.
+/// The task on one mesh. The path parameter of the pinned nodes, with a push also of the pushed
+/// joint, increases from t to 1.
 struct Problem {
-  int edges = 0;  ///< a segment
+  int edges = 0;  ///< per segment
   RodMesh mesh;
   Model model;
   PinnedMotion motion;
-  double t = 0;  ///< where it starts
+  double t = 0;  ///< path parameter at the start
   State start;   ///< certified on this mesh (beside_net: the net itself)
   State end;     ///< the equilibrium of *this* mesh at t = 1 on the branch of the reference
 
-  /// Path parameter of load step `k` of `steps`: boundary or joint move evenly.
+  /// Path parameter of load step `k` of `steps`, between which the boundary or the joint moves by
+  /// equal parts.
   double load_parameter(int k, int steps) const;
 };
 
@@ -52,12 +54,12 @@ class BenchmarkProblem {
   static Result<std::unique_ptr<BenchmarkProblem>> create(const preset::Preset& preset, int finest,
                                                           Watch& watch, double EA_scale = 1);
 
-  /// Made once per mesh, from any thread. Errors: no_equilibrium where the mesh has no state near
-  /// the reference's.
+  /// The problem on the mesh with `edges` per segment, made at its first use; may be called from
+  /// any thread. Errors: no_equilibrium if the mesh has no state near the reference's; cancelled.
   Result<const Problem*> problem(int edges, const Watch& watch);
 
-  /// Largest distance of a joint from the reference's end over the length scale; `x` has the joints
-  /// in its first columns.
+  /// Largest distance of a joint from its position at the reference's end, over the length scale;
+  /// `x` has the joints in its first columns.
   double error_of(const Eigen::Matrix3Xd& x) const;
   double scale_mm() const { return scene_->length_scale_mm; }
   int joints() const { return int(scene_->footprint.joints.size()); }
@@ -65,14 +67,15 @@ class BenchmarkProblem {
   /// The problem with another rod model or other joints; its end is that of the bend model.
   Problem on_model(const Problem& problem, const ModelVariant& on) const;
   Task task() const { return task_; }
-  double reference_error() const { return reference_error_; }  ///< estimated, over the scale
+  double reference_error() const { return reference_error_; }  ///< estimated, over scale_mm()
 
-  /// A nested shell as an experiment makes it for a tolerance.
+  /// A nested shell as an experiment makes it for a tolerance (over the length scale).
   NestedShell shell(const LevelPlan& plan, double tolerance, const ModelVariant& on = {}) const;
-  /// Brings the shell to the start, as far as that is given and not the method's own work.
+  /// Sets the shell to the start of the task. Does nothing for beside_net, whose equilibrium is the
+  /// method's own work.
   NestedReport begin(NestedShell& shell, const Watch& watch);
-  /// From there to the end, in load steps as the experiments choose them; of an actuation through
-  /// `stops` certified states.
+  /// Moves the shell from the start to the end, in load steps as the experiments choose them, with
+  /// `stops` certified states on the path of an actuation.
   NestedReport go(NestedShell& shell, const Watch& watch, int stops = 1) const;
 
  private:
@@ -86,13 +89,13 @@ class BenchmarkProblem {
   std::shared_ptr<const Scene> scene_;
   preset::Indentation pushed_;
   Task task_;
-  double t_ = 0;    // where the actuation starts
-  int joint_ = -1;  // pushed
+  double t_ = 0;    // path parameter at which the actuation starts
+  int joint_ = -1;  // the pushed one
   Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();
   RodMesh finest_;
-  Eigen::Matrix3Xd start_, end_;  // of the reference, on finest_
+  Eigen::Matrix3Xd start_, end_;  // positions of the reference on finest_
   double reference_error_ = 0;
-  std::mutex mutex_;  // of problems_
+  std::mutex mutex_;  // guards problems_
   std::map<int, Problem> problems_;
 };
 

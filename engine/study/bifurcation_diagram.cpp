@@ -24,17 +24,19 @@ using record::BranchEvent;
 constexpr double step_size = 0.006, symmetric_within = 1e-4, round_off = 1e-9;
 constexpr double first_shortenings[] = {0.02, 0.01, 0.005, 0.0025};
 
-/// What is followed, where it begins and how far it goes.
+/// The state with which the path begins, and the range of the path.
 struct BranchStart {
   Simulation session;
   double from = 0, to = 1;  // of the path parameter
   bool of_push = false;
 };
 
-/// A branch as it was traced.
+/// A traced branch.
 struct Branch {
   std::vector<TracedPoint> points;
-  Eigen::Matrix3Xd side;  // what broke the symmetry where it began: the sign of its amplitude
+  // part of the shape just after the bifurcation that breaks the symmetry: its direction is that of
+  // amplitudes with this sign
+  Eigen::Matrix3Xd side;
   double sign = 1;
 };
 
@@ -65,7 +67,8 @@ Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const Le
   return BranchStart{std::move(*session), *from};
 }
 
-/// Distance of a shape from the nearest point of a polyline of shapes, root mean square, mm.
+/// Root mean square distance (mm) of a shape's joints from the nearest shape on a polyline of
+/// shapes.
 double distance(const Eigen::Matrix3Xd& shape, const std::vector<TracedPoint>& line, int joints) {
   double nearest = INFINITY;
   for (std::size_t k = 1; k < line.size(); ++k) {
@@ -80,7 +83,7 @@ double distance(const Eigen::Matrix3Xd& shape, const std::vector<TracedPoint>& l
   return nearest;
 }
 
-/// The diagram in the making.
+/// Computes the diagram.
 class Diagram {
  public:
   Diagram(BranchStart& course, const BranchesOptions& options, Watch& watch)
@@ -112,7 +115,7 @@ class Diagram {
   }
 
  private:
-  /// The path itself, in both directions from its start.
+  /// Follows the path itself, in both directions from its start.
   Result<void> follow_path() {
     const NestedState& begin = shell_.state();
     Branch path;
@@ -134,7 +137,7 @@ class Diagram {
     return {};
   }
 
-  /// What the path is like before anything happens on it.
+  /// Determines the symmetry of the path at its first bifurcation, or in its middle if it has none.
   void take_symmetry() {
     const auto& points = branches_.front().points;
     auto before = std::ranges::find_if(
@@ -145,7 +148,7 @@ class Diagram {
         scene.flat.all(shell_.mesh(level_).flat.leftCols(joints_)).topRows<2>();
     const double within = symmetric_within * scene.length_scale_mm;
     symmetry_.emplace(flat, joints_of(*before), within);
-    // for a path without symmetry that of the footprint
+    // of a path without symmetry that of the footprint is used
     if (symmetry_->order() == 1) symmetry_.emplace(flat, joints_of(*before), INFINITY);
   }
 
@@ -164,9 +167,9 @@ class Diagram {
     return nodes_of(shell_.mesh(level_), shell_.model(level_), point.at.state.x).leftCols(joints_);
   }
 
-  /// The branches that leave branch `parent`.
+  /// Follows the branches that bifurcate from branch `parent`.
   void enter_from(std::size_t parent) {
-    // branches_ grows below
+    // a copy, since enter() appends to branches_
     const std::vector<TracedPoint> points = branches_[parent].points;
     for (std::size_t k = 0; k < points.size() && !watch_.cancelled(); ++k) {
       if (points[k].event != BranchEvent::bifurcation) continue;
@@ -176,6 +179,8 @@ class Diagram {
     }
   }
 
+  /// Follows the branch from a bifurcation along a mode, unless it is known. Short first steps may
+  /// end on the parent again; longer ones are then tried.
   void enter(std::size_t parent, const TracedPoint& crossing, const Eigen::Matrix3Xd& mode,
              double side) {
     for (const double mm : {0.05, 0.2, 0.6, 1.2}) {
@@ -203,8 +208,8 @@ class Diagram {
     }
   }
 
-  /// Sets signs of amplitudes: a branch off the path is positive on one side; later branches
-  /// inherit the sign of theirs.
+  /// Sets the sign of a branch's amplitudes: positive on one side of the path, negative on the
+  /// other. A branch from another branch has the sign of its parent.
   void take_side(std::size_t parent, Branch& branch, double side) const {
     if (branches_[parent].side.size() > 0) {
       branch.side = branches_[parent].side;

@@ -12,13 +12,13 @@ namespace {
 
 using record::BranchEvent;
 
-constexpr int most_pivots = 6;  // with more of them below zero a branch is given up
+constexpr int most_pivots = 6;  // a branch with more negative pivots is not followed further
 
 TracedPoint traced(const ArcPoint& at, BranchEvent event = BranchEvent::none) {
   return {at.point, at.inertia.negative_pivots, event};
 }
 
-/// One branch in the making.
+/// Follows one branch.
 class Tracer {
  public:
   Tracer(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
@@ -60,7 +60,7 @@ class Tracer {
     return false;
   }
 
-  /// Moves from `before` in small steps to just past the limit point.
+  /// Continues from `before` in small steps until just past the limit point.
   bool turn(const ArcFollower& before) {
     constexpr int parts = 8;
     const double step = length_between(before, path_) / parts;
@@ -79,8 +79,8 @@ class Tracer {
     return true;
   }
 
-  /// Locates every change of a pivot's sign between `before` and the path's point; false if the
-  /// branch met another one.
+  /// Locates every change of the number of negative pivots between `before` and the path's point.
+  /// Returns false if the branch met another one.
   bool bifurcations(const ArcFollower& before) {
     constexpr int most = 4;
     ArcFollower low = before;
@@ -114,7 +114,8 @@ class Tracer {
     return true;
   }
 
-  /// The point at the end of the range itself, if there is one.
+  /// Adds the point exactly at an end of the range (`to` if `at_end`, else `from`), if Newton's
+  /// method finds it. Returns false: the branch ends.
   bool arrive(bool at_end) {
     const double t = at_end ? options_.to : options_.from;
     const PathPoint& beyond = path_.at().point;
@@ -189,7 +190,7 @@ std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const Pinned
       system.solve(column);
       turned.col(k) = column.reshaped();
     }
-    // the largest of the inverse are the lowest modes
+    // the largest eigenvalues of the inverse belong to the lowest modes
     const auto inner = eigen_pairs(basis.transpose() * turned);
     basis = turned * inner.vectors.rowwise().reverse();
   }

@@ -12,10 +12,10 @@ namespace {
 
 using record::BranchEvent;
 
-/// dK/dfactor along the path's tangent, by central differences: of the forces and of bending. The
-/// change of EA t t^T, in which the directions t turn, is left out: without the square of the
-/// factor that belongs to it, it makes a shell of nearly inextensible rods unstable at a factor
-/// that falls as 1/sqrt(EA).
+/// dK/dfactor along the path's tangent `velocity` by central differences, without the part of the
+/// axial stiffness EA t t^T. That part changes because the directions t of the edges rotate. Its
+/// first-order change alone, without the second-order change that balances it, would make a shell
+/// of nearly inextensible rods unstable at a factor that falls as 1/sqrt(EA).
 BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
                              const ExternalLoads& at, const ExternalLoads& growth,
                              const Eigen::Matrix3Xd& velocity) {
@@ -48,7 +48,8 @@ BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
   return up;
 }
 
-/// Displacement per unit of the parameter at the start.
+/// Root mean square of the nodes' displacement per unit of the load factor at the start, mm;
+/// `velocity`, if given, gets the displacements themselves.
 double rate_of(Linearisation& system, const PinnedMotion& motion, const State& begin,
                Eigen::Matrix3Xd* velocity) {
   State moves;
@@ -57,8 +58,7 @@ double rate_of(Linearisation& system, const PinnedMotion& motion, const State& b
   return std::sqrt(moves.x.squaredNorm() / double(moves.x.cols()));
 }
 
-/// The top of the parabola of t through the last three of the points up to `k`, over their
-/// distance.
+/// The extremum of the parabola of t over the distance along the path through points k - 2 to k.
 double top_of(const std::vector<TracedPoint>& points, std::size_t k) {
   if (k < 2) return points[k].at.t;
   double s[3] = {0, 0, 0}, t[3];
@@ -73,7 +73,7 @@ double top_of(const std::vector<TracedPoint>& points, std::size_t k) {
   return t[0] + a * (at - s[0]) + bend * (at - s[0]) * (at - s[1]);
 }
 
-/// The first loss of stability on a path, and the mode that loses it.
+/// Finds the first loss of stability on the path of `found`, and its mode.
 void take_critical(CriticalLoad& found, Linearisation& system, const PinnedMotion& motion,
                    const Watch& watch) {
   auto& points = found.points;
@@ -87,7 +87,7 @@ void take_critical(CriticalLoad& found, Linearisation& system, const PinnedMotio
       found.factor = top_of(points, k);
       found.mode = points[k].at.velocity.x;
     } else {
-      // a step may have gone past it
+      // without a located bifurcation, stability is lost within the step before point k
       TracedPoint crossing = branches ? points[k] : points[k - 1];
       if (!branches) crossing.beyond = points[k].negative_pivots;
       found.factor = branches ? crossing.at.t : 0.5 * (crossing.at.t + points[k].at.t);
@@ -150,7 +150,7 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
                            const CriticalOptions& options, const Watch& watch) {
   CriticalLoad found;
-  // a cable that is added changes the stiffness at once, not with the factor
+  // a cable that becomes tight changes the stiffness at once, not in proportion to the factor
   const bool cables =
       std::ranges::any_of(system.model().bars, [](const ModelBar& bar) { return bar.law.cable; });
   if (!cables) found.linear = linear_critical_factor(system, motion, begin, watch);
@@ -188,7 +188,7 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
     const bool ran_out =
         int(found.points.size()) >= how.most_steps && std::ranges::all_of(found.points, nothing);
     if (!ran_out || attempt == most_attempts || watch.cancelled()) break;
-    // the linear estimate is far too low: once more in longer steps
+    // the linear estimate is far too low: repeat in longer steps
     for (double* length : {&how.arc.step_mm, &how.arc.largest_mm}) *length *= 8;
   }
   for (TracedPoint& point : found.points)

@@ -1,4 +1,5 @@
-// What is found out about a formed, loaded shell, in the state that its experiment ends in.
+// Studies of a formed, loaded shell in the state in which its experiment ends: natural vibrations
+// and critical loads.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,24 +16,23 @@
 
 namespace gridshell::study {
 
-// Natural vibrations about it.
-
 /// A shell at the end of its preset's path.
 struct FormedShell {
   simulate::EquilibriumPath path;  ///< its simulation is in the last certified state
-  record::Trajectory state;        ///< of that state the frame alone
+  record::Trajectory state;        ///< one frame: the last certified state
   record::Summary summary;
 };
 
-/// Runs a preset. Errors: bad_input where nothing is solved, simulate::follow()'s.
+/// Runs a preset. Errors: bad_input for the net model, which solves nothing; those of
+/// simulate::follow().
 Result<FormedShell> form_shell(const preset::Preset& preset, Watch& watch);
 
-/// Frequencies and shapes, and the state that they are of.
+/// Natural frequencies and mode shapes of a shell about one of its states.
 struct Vibrations {
   std::vector<record::ModeRow> modes;
-  /// one per mode: how every node of the layout moves, the one that moves furthest by 1
+  /// one per mode: displacements of the layout's nodes (3 x n), the largest of length 1
   std::vector<Eigen::Matrix3Xd> shapes;
-  record::Trajectory state;  ///< one frame
+  record::Trajectory state;  ///< one frame: the state about which the shell vibrates
   record::Summary summary;
 };
 
@@ -46,47 +46,50 @@ Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch&
 /// Vibrations of a formed shell, whose state does not change.
 Result<Vibrations> vibrations_of(FormedShell& shell, int count, const Watch& watch);
 
-// Load factor over the displacement of a joint for each load case. On one mesh: where a state under
-// increasing loads loses its stability, by arc length, and the estimate of the linearised problem
-// at its start.
+// Critical loads on one mesh: the load factor at which a state under increasing loads loses its
+// stability, found on its equilibrium path by arc length, and its estimate by the linearised
+// problem at the start.
 
 struct CriticalOptions {
-  double max_strain = 1e-3;     ///< the path ends there
-  double most_factor = 1000;    ///< of the load
-  double largest_mm = 0;        ///< arc steps may be so long; 0: by the linear estimate alone
-  double steps_to_linear = 40;  ///< first arc steps up to the linear estimate
-  int most_steps = 160;         ///< of the path
-  int after_turn = 12;          ///< steps of it after its first limit point
-  double tolerance_mm = 1e-7;
+  double max_strain = 1e-3;   ///< the path ends at this strain
+  double most_factor = 1000;  ///< the path ends at this load factor
+  /// largest arc step, unless the linear estimate allows a longer one; 0: the estimate alone
+  double largest_mm = 0;
+  double steps_to_linear = 40;  ///< arc steps of the initial length up to the linear estimate
+  int most_steps = 160;         ///< the path ends after so many arc steps
+  int after_turn = 12;          ///< the path ends so many steps after its first limit point
+  double tolerance_mm = 1e-7;   ///< of Newton's corrections
 };
 
-/// What was found.
+/// Loss of stability under increasing loads, and the path to it.
 struct CriticalLoad {
-  std::vector<TracedPoint> points;  ///< the path, its parameter the load factor
-  double factor = record::unknown;  ///< where the first stability is lost; NaN: not on this path
+  std::vector<TracedPoint> points;  ///< the path; its parameter is the load factor
+  double factor = record::unknown;  ///< at the first loss of stability; NaN: none on this path
   /// bifurcation or turn (a limit point); else how the path ended: locking, lost, none (complete)
   record::BranchEvent event = record::BranchEvent::none;
-  double linear = record::unknown;  ///< linear_critical_factor(), of models without cables
-  Eigen::Matrix3Xd mode;            ///< over all columns, longest move 1; empty: none
+  double linear = record::unknown;  ///< linear_critical_factor(); NaN for models with cables
+  Eigen::Matrix3Xd mode;  ///< that loses stability, all columns, largest length 1; empty: none
 };
 
-/// The smallest factor > 0 at which K_0 + factor K_g is singular: K_0 the Hessian at a stable state
-/// under motion's loads at 0, K_g its change with the factor along the path's tangent there (axial
-/// forces and shape). By subspace iteration on K_0^-1 K_g [Bathe 1996]. NaN: there is none, or the
-/// state is not stable.
+/// The smallest factor > 0 at which K_0 + factor K_g is singular. K_0 is the Hessian at the stable
+/// state `begin` under the loads of `motion` at parameter 0, K_g its derivative by the factor along
+/// the path's tangent at that state (axial forces and shape). Computed by subspace iteration on
+/// K_0^-1 K_g [Bathe 1996]. NaN: there is none, or the state is not stable.
 double linear_critical_factor(Linearisation& system, const PinnedMotion& motion, const State& begin,
                               const Watch& watch);
 
-/// Follows the equilibrium `begin` under the loads that `motion` brings on by its parameter. Limit
-/// points are the top of the parabola through the three points around, bifurcations are bisected.
+/// Follows the equilibrium `begin` under the loads that `motion` applies, whose factor is its
+/// parameter. A limit point is the top of the parabola through the three points around it;
+/// bifurcations are located by bisection.
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
                            const CriticalOptions& options, const Watch& watch);
 
+/// Equilibrium paths and critical factors of all load cases of a shell.
 struct LoadStudy {
-  std::vector<record::LoadPoint> points;  ///< of the finest mesh, case by case
+  std::vector<record::LoadPoint> points;  ///< on the finest mesh, case by case
   std::vector<record::LoadRow> cases;
-  /// one per case: how the nodes of the layout move where stability is lost, the one that moves
-  /// furthest by 1; empty: it is not
+  /// one per case: the mode that loses stability, as displacements of the layout's nodes (3 x n),
+  /// the largest of length 1; empty: stability is not lost
   std::vector<Eigen::Matrix3Xd> modes;
   /// per case: the load at a factor of one, on the layout's supports, N
   std::vector<Eigen::Matrix3Xd> loads;
@@ -99,10 +102,10 @@ struct LoadStudy {
 /// factors of the last two meshes are extrapolated, with their difference as the error, as for all
 /// forces; so are the factors at which a fibre reaches its rod's strength. If the meshes lose
 /// stability by different events, which are then close together, that of the finer mesh is
-/// reported. `imperfections` further shells per case, on the coarser of these meshes, have a random
-/// mixture of the lowest modes as their shape, at most `loads.imperfection` of the length scale,
-/// produced by the dead forces that deform the perfect shell by that amount to first order. Errors:
-/// bad_input (no case, no solve), no_equilibrium, cancelled.
+/// reported. For each case `imperfections` imperfect shells are loaded too, on the coarser of these
+/// meshes. Their shape is displaced by a random mixture of the lowest modes, at most
+/// `loads.imperfection` of the length scale, which dead forces produce (to first order). Errors:
+/// bad_input (no case, or the net model), no_equilibrium, cancelled.
 Result<LoadStudy> load_study(const preset::Preset& preset, int imperfections, Watch& watch);
 /// Load study of a formed shell, whose state does not change.
 Result<LoadStudy> load_study(FormedShell& shell, int imperfections, Watch& watch);

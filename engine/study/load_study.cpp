@@ -18,7 +18,7 @@ namespace {
 
 using record::BranchEvent;
 
-/// An increasing load case on the meshes of a simulation.
+/// Applies an increasing load case to the meshes of a simulation and follows its path on each.
 class Loading {
  public:
   Loading(Simulation& simulation, const LoadCase& load, const Watch& watch)
@@ -39,7 +39,7 @@ class Loading {
   }
   CriticalLoad on(int level) { return on(level, shell_.state().levels[std::size_t(level)]); }
 
-  /// Largest stress over strength at every point of a path; empty: not known.
+  /// Largest stress over strength at every point of a path; empty: the strength is not known.
   std::vector<double> utilisations(int level, const CriticalLoad& found) {
     std::vector<double> used;
     if (scene_.strength_MPa.empty()) return used;
@@ -48,7 +48,7 @@ class Loading {
     return used;
   }
 
-  /// The first factor at which a fibre reaches its rod's strength; NaN: none on the path.
+  /// The first factor at which a fibre reaches its rod's strength; NaN: not on this path.
   double strength_factor(int level, const CriticalLoad& found, const std::vector<double>& used) {
     const auto beyond = std::ranges::find_if(used, [](double fraction) { return fraction >= 1; });
     if (beyond == used.end()) return record::unknown;
@@ -57,7 +57,7 @@ class Loading {
     const TracedPoint &from = found.points[k - 1], &to = found.points[k];
     double low = from.at.t, high = to.at.t, below = used[k - 1] - 1, above = used[k] - 1;
     const auto crossing = [&] { return low - below / (above - below) * (high - low); };
-    // near a limit point a factor has two states
+    // near a limit point two states have the same factor, so it does not determine one
     if (to.negative_pivots > 0 || !(high > low)) return crossing();
     constexpr int rounds = 6;
     State state = from.at.state;
@@ -123,7 +123,8 @@ class Loading {
   double dead_now_ = 1;
 };
 
-/// The factor over the displacement of the joint with the largest one at the loss of stability.
+/// Appends a path's points to `rows`: the load factor over the displacement of the joint that moves
+/// most until stability is lost, in the direction of that displacement.
 void put_points(const std::string& name, const CriticalLoad& found, const std::vector<double>& used,
                 int joints, std::vector<record::LoadPoint>& rows) {
   const auto joints_at = [&](const TracedPoint& point) -> Eigen::Matrix3Xd {
@@ -152,7 +153,8 @@ double quantile(std::vector<double> values, double fraction) {
   return values[low] + (at - double(low)) * (values[high] - values[low]);
 }
 
-/// Critical factors of imperfect shells, over the perfect one's on the same mesh.
+/// Writes quantiles of the critical factors of imperfect shells, over `perfect`, that of the
+/// perfect shell on the same mesh, to the row. Shells without a critical factor are left out.
 Result<void> put_imperfections(Loading& loading, Simulation& simulation, int level, int count,
                                double perfect, record::LoadRow& row, const Watch& watch) {
   constexpr int soft_modes = 6;
@@ -178,8 +180,9 @@ Result<void> put_imperfections(Loading& loading, Simulation& simulation, int lev
   return {};
 }
 
-/// A factor from meshes, coarse to fine, NaN: not on their path; extrapolated if they have the same
-/// event, else the finest's with the complete difference as its error.
+/// A factor computed on meshes from coarse to fine (NaN: not on the path of a mesh). It is
+/// extrapolated if `same`, the meshes lose stability by the same event; otherwise it is that of the
+/// finest mesh, with the complete difference as its error.
 CertifiedVectors certified(const std::vector<double>& factors, bool extrapolate, bool same) {
   std::vector<Eigen::Matrix3Xd> known;
   for (const double factor : factors)
@@ -219,12 +222,12 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
                          estimated = certified(linear, extrapolate, true);
   row.strength_factor = torn.value(0, 0), row.strength_error = torn.error;
   row.linear_factor = estimated.value(0, 0), row.linear_error = estimated.error;
-  // the order shows on three meshes that have the same event
+  // the order of convergence is known from three meshes with the same event
   const bool ordered = critical.size() == 3 && std::isfinite(critical[0]) &&
                        events[0] == events[1] && events[1] == events[2];
   const CertifiedVectors lost = certified(critical, extrapolate, ordered);
   row.critical_factor = lost.value(0, 0), row.error = lost.error;
-  // of the last two meshes the coarser one
+  // imperfect shells are computed on the coarser one of the last two meshes
   const double perfect = critical[std::max<std::size_t>(critical.size(), 2) - 2];
   if (imperfections > 0 && std::isfinite(perfect))
     TRY_DO(put_imperfections(loading, simulation, std::max(0, last - 1), imperfections, perfect,

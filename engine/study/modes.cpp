@@ -12,15 +12,16 @@
 namespace gridshell::study {
 namespace {
 
-constexpr int more_modes = 4;  // of each mesh: the order may change from mesh to mesh
+constexpr int more_modes = 4;  // computed on each mesh, since the order may change between meshes
 
-/// The modes of one mesh; shapes are those of the finest mesh's nodes.
+/// The modes of one mesh; their shapes are interpolated to the nodes of the finest mesh.
 struct MeshModes {
   Eigenmodes found;
   std::vector<Eigen::Matrix3Xd> shapes;
 };
 
-/// Mode of lambda = (2 pi f)^2, which passes through zero where a state loses its stability.
+/// The row of a mode with lambda = (2 pi f)^2. Lambda is negative for an unstable mode, and so is
+/// the frequency in the table.
 record::ModeRow row_of(const CertifiedVectors& lambda, double residual) {
   const double value = lambda.value(0, 0), root = std::sqrt(std::abs(value));
   return {0, std::copysign(root, value) / (2 * M_PI),
@@ -52,7 +53,7 @@ double likeness(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return std::abs(product(a, b)) / (a.norm() * b.norm());
 }
 
-/// For each mode of `fine` the most similar mode of `coarse` that is not taken.
+/// For each mode of `fine` the most similar mode of `coarse` that is not yet paired; -1: none.
 std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse) {
   struct Pair {
     double alike;
@@ -74,14 +75,14 @@ std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse
   return partner;
 }
 
-/// Lambda of each of the finest mesh's modes on every mesh, coarse to fine, as certify_vectors
-/// takes them.
+/// For each mode of the finest mesh its lambda on every mesh, coarse to fine, as the first
+/// component of a vector (for certify_vectors).
 std::vector<std::vector<Eigen::Matrix3Xd>> lambdas_of(const std::vector<MeshModes>& meshes) {
   std::vector<std::vector<Eigen::Matrix3Xd>> of_mode(meshes.back().shapes.size());
   for (const MeshModes& mesh : meshes) {
     const auto partner = partners(meshes.back(), mesh);
     for (std::size_t k = 0; k < of_mode.size(); ++k)
-      // a mesh of few unknowns may lack it
+      // a mesh of few unknowns may have fewer modes
       if (partner[k] < mesh.shapes.size())
         of_mode[k].emplace_back(mesh.found.values[Eigen::Index(partner[k])] *
                                 Eigen::Vector3d::UnitX());
@@ -89,7 +90,7 @@ std::vector<std::vector<Eigen::Matrix3Xd>> lambdas_of(const std::vector<MeshMode
   return of_mode;
 }
 
-/// The last frame alone.
+/// Retains the last frame alone.
 class LastAlone final : public record::Sink {
  public:
   Result<void> begin(record::Layout layout) override {

@@ -22,14 +22,14 @@ constexpr int most_triples = 80, least_points = 4;
 constexpr Eigen::Index most_tried =
     1500;  // positions tried for a triple; of more, that many are drawn
 constexpr std::size_t most_pairs = 4000;  // number of pairs at one distance that are tried
-constexpr int looked_at = 24;             // points that must agree before all are counted
-constexpr double least_agreeing = 0.35;   // of those
+constexpr int looked_at = 24;             // points tested before all others are
+constexpr double least_agreeing = 0.35;   // fraction of them that must agree
 constexpr double enough =
     0.9;  // fraction of the positions or points at which no further triple is drawn
-constexpr double as_good = 0.8;  // of the best pose's count: worth refining
+constexpr double as_good = 0.8;  // fraction of the best pose's count that is worth refining
 constexpr std::size_t most_refined = 16;
 constexpr double other_pose = 0.1;                          // rad
-constexpr double shortest_side = 0.2, least_height = 0.15;  // of the shape, in a triple
+constexpr double shortest_side = 0.2, least_height = 0.15;  // of a triple, over the shape's extent
 constexpr int most_turns = 60;
 
 double distance(const Eigen::Matrix3Xd& points, int a, int b) {
@@ -47,7 +47,7 @@ Pose fit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
   return {turn, b - turn * a};
 }
 
-/// The positions of a shape with a search by cells.
+/// The positions of a shape, found by a grid of cells.
 class Places {
  public:
   Places(const Eigen::Matrix3Xd& places, double within)
@@ -58,7 +58,7 @@ class Places {
     }
   }
 
-  /// visit(place, distance) for positions within the given length.
+  /// Calls visit(index, distance) for every position within the given length of p.
   void near(const Eigen::Vector3d& p, auto visit) const {
     const std::vector<int>* few = grid_.at(p);
     if (!few) return;
@@ -88,7 +88,7 @@ struct Guess {
   int agreeing = 0;
 };
 
-/// Draws triples and keeps the poses in which most points agree.
+/// Draws triples of points and collects the poses in which most points agree with positions.
 class Search {
  public:
   Search(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& places, double bar)
@@ -111,7 +111,7 @@ class Search {
   std::vector<Guess> guesses() {
     const auto all = int(std::min(points_.cols(), places_.cols()));
     for (int k = 0; k < most_triples && best_ < enough * all; ++k) {
-      // first as if all were exact, then as far off as may be
+      // every other triple is tried with a tight tolerance, which is faster
       within_ = k % 2 == 0 ? bar_ / 3 : bar_;
       if (const auto triple = drawn()) try_all(*triple);
     }
@@ -187,7 +187,7 @@ class Search {
   double bar_, within_ = 0;
   Places near_;
   double size_;
-  std::vector<int> tried_;  // positions on which triples are laid
+  std::vector<int> tried_;  // positions to which triples are mapped
   std::vector<PlacePair> pairs_;
   std::vector<int> order_;
   std::mt19937_64 draw_{1};
@@ -258,7 +258,7 @@ std::optional<Registration> refined(const Pose& guess, const Eigen::Matrix3Xd& p
       if (!std::isnan(one)) off.push_back(one);
     gate = std::clamp(5 * median(off), options.nearest, options.reach);
   }
-  // assignment of the last fit
+  // the assignment that belongs to the last fit
   assign(found.pose.of(points), near, gate, found);
   if (found.found < least_points) return std::nullopt;
   for (const double one : found.distance) {

@@ -10,8 +10,8 @@
 namespace gridshell::study {
 namespace {
 
-/// one explicit step of the free nodes, the kick over `kick` and the drift over h; returns the
-/// kinetic energy after it
+/// One explicit step of the free nodes: v = keep v + kick F / m, x += h v. Returns the kinetic
+/// energy after it.
 double kick_and_drift(const Model& model, const Eigen::Matrix3Xd& mass, double kick, double h,
                       double keep, const Assembly& assembly, Eigen::Matrix3Xd& x,
                       Eigen::Matrix3Xd& velocity) {
@@ -25,12 +25,13 @@ double kick_and_drift(const Model& model, const Eigen::Matrix3Xd& mass, double k
   return kinetic;
 }
 
-/// energies above any that the rods could store: strained by more than one half
+/// Whether the run diverges: an edge is strained by more than one half, or the energy is not
+/// finite.
 bool grown(const Assembly& assembly) {
   return !(std::abs(assembly.largest_strain) < 0.5) || !std::isfinite(assembly.energies.total());
 }
 
-/// assembles the gradient; returns whether the run ends: equilibrium, divergence or cancel
+/// Assembles the gradient; returns whether the run ends, in equilibrium, diverged or cancelled.
 bool ended(const Model& model, const State& state, const BaselineOptions& options,
            const Watch& watch, Assembly& assembly, BaselineReport& report) {
   assemble_gradient(model, state, {}, assembly);
@@ -46,7 +47,8 @@ bool ended(const Model& model, const State& state, const BaselineOptions& option
   return true;
 }
 
-/// one implicit step; false where Newton's method does not solve it, the motion is then unchanged
+/// One implicit step. Returns false if Newton's method does not solve it; the motion is then
+/// unchanged.
 bool euler_step(const Model& model, const Eigen::Matrix3Xd& mass, double h, double inertia,
                 LinearSolver& solver, Assembly& assembly, MovingState& moving) {
   constexpr int most_iterations = 50;
@@ -87,7 +89,7 @@ RunOutcome claim_of(const BaselineReport& report) {
   return report.end == Outcome::cancelled ? RunOutcome::too_slow : RunOutcome::not_converged;
 }
 
-/// Frequency of the slowest mode at the problem's end, 1/s.
+/// Angular frequency (rad/s) of the lowest mode at the problem's end, by inverse iteration.
 double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
   Linearisation system(problem.model);
   system.at(problem.end, false);
@@ -118,7 +120,7 @@ struct RelaxationRun {
       if (problem.model.pinned(node)) moving.state.x.col(node) = there.col(node);
   }
 
-  /// Load steps, each to equilibrium.
+  /// Moves the boundary in load steps, each until equilibrium.
   RunOutcome steps(int count, const Watch& watch) {
     how.most_steps = 1 << 30;  // the time limit decides
     RunOutcome claim = RunOutcome::right;
@@ -132,8 +134,8 @@ struct RelaxationRun {
     return claim;
   }
 
-  /// Moves the boundary during four periods of the slowest mode, which is damped critically, then
-  /// to equilibrium. A sudden motion would give the shell large velocities.
+  /// Moves the boundary during four periods of the lowest mode, which is damped critically, then
+  /// runs until equilibrium. A sudden motion would give the shell large velocities.
   RunOutcome ramp(bool moves, const Watch& watch) {
     constexpr int chunk = 20;  // time steps between two moves
     const double slowest = slowest_frequency(problem, mass);
@@ -186,8 +188,8 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
 BaselineReport dynamic_relaxation(const Model& model, State& state, const BaselineOptions& options,
                                   const Watch& watch) {
   BaselineReport report;
-  // a quarter of what a row of the Hessian sums up to at most where rods are straight: no mode is
-  // then faster than 2, and a step of 1 is at the limit (Gershgorin)
+  // a mass is a quarter of the largest row sum of the Hessian of straight rods: by Gershgorin no
+  // angular frequency is then above 2, and a step of 1 is the limit
   Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.nodes);
   for (const ModelEdge& edge : model.edges)
     for (int node : {edge.from, edge.to}) mass(0, node) += edge.EA / edge.rest_length;
@@ -204,14 +206,14 @@ BaselineReport dynamic_relaxation(const Model& model, State& state, const Baseli
   bool from_rest = true;
   for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
     if (ended(model, state, options, watch, assembly, report)) return report;
-    // velocities are half a step after positions: the first one from zero velocity is half a kick;
-    // a full one would excite the fast modes at every restart
+    // velocities are half a step ahead of positions, so that the first change from zero velocity
+    // is a half; a full one would excite the fast modes at every restart
     const double kick = from_rest ? 0.5 * h : h;
     const double kinetic = kick_and_drift(model, mass, kick, h, 1, assembly, state.x, velocity);
     from_rest = kinetic < before;
     if (from_rest) {
-      // the peak is one and a half steps back; without going back the fast modes' peaks would stop
-      // the slow ones repeatedly
+      // the peak was one and a half steps ago; if positions were not set back to it, the peaks of
+      // the fast modes would stop the slow ones repeatedly
       for (int node : model.free_columns)
         state.x.col(node) -= 1.5 * h * velocity.col(node) +
                              0.5 * h * h / mass(0, node) * assembly.gradient.col(node);
@@ -236,8 +238,6 @@ BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
   }
   return report;
 }
-
-// Methods that reach equilibrium by moving.
 
 MethodResult relax(const Problem& problem, const RelaxationOptions& options, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);
@@ -271,7 +271,7 @@ MethodResult hold(const Problem& problem, double over_l_c, const Watch& watch) {
     for (int axis = 0; axis < 3; ++axis)
       moving.state.x(axis, node) += 0.01 * std::sin(1 + 2.3 * node + 1.7 * axis);
   const BaselineReport report = explicit_to_rest(problem.model, mass, moving, options, watch);
-  // it need not converge but must not leave
+  // it need not converge but must not diverge
   result.claim = report.end == Outcome::not_converged ? RunOutcome::right : claim_of(report);
   result.x = std::move(moving.state.x);
   return result;

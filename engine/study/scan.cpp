@@ -15,10 +15,10 @@
 namespace gridshell::study {
 namespace {
 
-constexpr double cells_a_diameter = 3, most_cells = 1e6;  // a side
+constexpr double cells_a_diameter = 3, most_cells = 1e6;  // along each axis
 constexpr double speck_fraction = 0.25;
 constexpr int disc_steps = 30;
-constexpr double pull = 1e-3;  // of the mean, where the disc's rim sees no point
+constexpr double pull = 1e-3;  // weight of the mean, for discs whose rim no point crosses
 constexpr double wide_rim = 1.25, most_beyond = 0.05;  // radii; fraction of the points outside them
 
 using Cell = std::array<std::int32_t, 3>;
@@ -71,8 +71,8 @@ std::vector<std::vector<int>> sets_of(const Cells& cells) {
   return points;
 }
 
-/// The middle of the disc of that radius which points of the plane overhang least: the least sum of
-/// squares of what lies outside, by Gauss and Newton from their mean.
+/// The middle of the disc of that radius which the points overhang least: it minimises the sum of
+/// the squared distances of points outside the disc from it, by Gauss-Newton steps from their mean.
 Eigen::Vector2d disc_around(const Eigen::Matrix2Xd& points, double radius) {
   const Eigen::Vector2d mean = points.rowwise().mean();
   Eigen::Vector2d middle = mean;
@@ -100,7 +100,9 @@ Eigen::Matrix3Xd chosen(const Eigen::Matrix3Xd& cloud, const std::vector<int>& p
   return some;
 }
 
-/// The middle of a top, empty if its points extend outside it: two touching objects.
+/// The middle of a top; `off_plane` gets the rms distance of the points from its plane (unchanged
+/// if there are fewer than ten). Empty if the points extend outside a top, as those of two touching
+/// objects do.
 std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double radius,
                                          double& off_plane) {
   const Eigen::Vector3d mean = points.rowwise().mean();
@@ -108,7 +110,7 @@ std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double 
   if (points.cols() < 3) return mean;
   const Eigen::Matrix3Xd about = points.colwise() - mean;
   const auto axes = eigen_pairs(about * about.transpose());
-  constexpr Eigen::Index enough = 10;  // a plane goes through three of them
+  constexpr Eigen::Index enough = 10;  // a plane passes through any three points
   if (points.cols() >= enough)
     off_plane = std::sqrt(std::max(0.0, axes.values[0]) / double(points.cols() - 3));
   const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
@@ -119,7 +121,8 @@ std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double 
   return mean + middle;
 }
 
-/// How many points the cluster has that the median point is in, of those that may be tops.
+/// Size of the cluster that the median point is in, among clusters of at least eight points if
+/// there are any.
 std::size_t usual_size(const std::vector<std::vector<int>>& sets) {
   constexpr std::size_t of_a_top = 8;
   std::vector<std::size_t> sizes;
@@ -135,8 +138,8 @@ std::size_t usual_size(const std::vector<std::vector<int>>& sets) {
   return 0;
 }
 
-constexpr double same_place = 1e-3;  // of d: a mirror image's
-constexpr double reach = 0.4;        // of d: no joint is measured further away
+constexpr double same_place = 1e-3;  // times d: tolerance of a mirror image
+constexpr double reach = 0.4;        // times d: largest distance of a measured joint
 constexpr double least_found_within = 0.9, least_within = 0.6;
 
 /// Tangent at the middle of three points of a quadratic through them, a unit vector.
@@ -146,7 +149,7 @@ Eigen::Vector3d tangent_at(const Eigen::Vector3d& before, const Eigen::Vector3d&
   return (a.normalized() * b.norm() + b.normalized() * a.norm()).normalized();
 }
 
-/// Whether a rod runs along u; nothing where the run does not say.
+/// Whether a rod runs along u; empty if the run does not determine it.
 std::optional<bool> runs_along_u(const record::Layout& layout, std::size_t rod,
                                  const std::vector<int>& joint_of) {
   if (!layout.families.empty()) return layout.families[rod] == "u";
@@ -270,7 +273,7 @@ ScanTarget form_of(const record::Layout& layout, const record::Frame& frame) {
       if (joint < 0) continue;
       const Eigen::Vector3d t = tangent_at(frame.nodes.col(rod[k - 1]), frame.nodes.col(rod[k]),
                                            frame.nodes.col(rod[k + 1]));
-      // for a rod with a single joint: the family that the other rod leaves
+      // a rod of unknown direction is of the family that the joint has no tangent of yet
       const bool to_u = along_u ? *along_u : u.col(joint).isZero(0);
       (to_u ? u : v).col(joint) = t;
     }
@@ -296,7 +299,7 @@ std::optional<RegisteredScan> register_points(const Clusters& clusters, const Sc
   bool mirrored = false;
   if (form.mirror) {
     auto other = register_points(clusters.tops, *form.mirror * places, options);
-    // where both are as good it is no mirror image
+    // of two equal fits that without reflection is chosen
     if (other && (!best || other->cost < (1 - 1e-6) * best->cost)) {
       other->pose.turn = *form.mirror * other->pose.turn;
       other->pose.shift = *form.mirror * other->pose.shift;

@@ -1,4 +1,4 @@
-// Which cells each map has, and how they are judged.
+// The cells of each map, and how their outcomes are judged.
 
 #include "engine/study/method_studies.h"
 
@@ -44,7 +44,7 @@ class Map {
   std::vector<std::pair<std::string, Try>> methods_;
 };
 
-/// Runs on one mesh of a case and is judged there.
+/// Outcome of a method on one mesh, judged on that mesh.
 template <class Run>
 RunOutcome on_mesh(const SharedProblem& study, double edges, double promised, const Run& run) {
   const auto problem = study->problem(int(edges), unwatched);
@@ -58,11 +58,12 @@ RunOutcome newton_outcome(const SharedProblem& study, double edges, const MarchO
                  [&](const Problem& problem) { return march(problem, options, watch); });
 }
 
-/// The default solver: with a tolerance it is judged by what that promises.
+/// Outcome of the default solver. With a tolerance it is judged by the error that this promises.
 RunOutcome default_outcome(const SharedProblem& study, const FollowOptions& options,
                            const Watch& watch) {
   const MethodResult result = follow_path(*study, options, watch);
-  // at least what methods on one mesh promise; the mesh's own error is not theirs either
+  // methods on one mesh are not judged by the error of their mesh, so no smaller error than
+  // theirs is required of the default
   const double promised =
       options.refine ? std::max(options.tolerance, claimed_error) : claimed_error;
   return verdict_of(*study, result, result.whole_mesh ? claimed_error : promised, promised,
@@ -74,7 +75,7 @@ constexpr Globalisation globalisations[] = {Globalisation::none, Globalisation::
 
 using MakeProblem = std::function<Result<std::unique_ptr<BenchmarkProblem>>()>;
 
-/// A case that is made when a cell first needs it; empty where it has no reference.
+/// A problem that is made when a cell first needs it; null if it has no reference.
 class Lazy {
  public:
   explicit Lazy(MakeProblem make) : make_(std::move(make)) {}
@@ -91,12 +92,13 @@ class Lazy {
   SharedProblem made_;
 };
 
-/// Load steps on a case of their own, one at every x: full steps, shifted, and by default.
+/// Adds the cells of one x, which has a problem of its own, over load steps: Newton's method with
+/// full steps and shifted, and the default solver.
 void add_load_steps(const char* map_name, const char* x_name, double x, const Axis& load_steps,
                     int edges, MakeProblem make, Cells& cells) {
   const auto lazy = std::make_shared<Lazy>(std::move(make));
   Map map(map_name, x_name, {x}, "load_steps", load_steps);
-  // the engine says why there is no reference to compare with
+  // without a reference the outcome is `refused`: the default solver reports why
   for (const Globalisation how : {Globalisation::none, Globalisation::shifted})
     map.add(word_of(how), [=](double, double steps, const Watch& watch) {
       const SharedProblem study = lazy->get();
@@ -177,7 +179,7 @@ Cells leg_map(const preset::Preset& preset, const Axis& legs, const Axis& load_s
   if (preset.footprint.kind != preset::FootprintKind::circle) return cells;
   for (const double leg : legs) {
     preset::Preset cut = preset;
-    // the outermost rod's last joint is that far inside the boundary
+    // the shortest leg is that of the outermost rod, from its last joint to the boundary
     const double d = preset.footprint.spacing_mm, outermost = (preset.footprint.rods - 1) / 2.0;
     const double original = preset.original_radius_mm();
     const double reach =
@@ -211,7 +213,7 @@ Cells seed_map(const SharedProblem& study, const Axis& heights, const Axis& edge
     add(word_of(how), [how](const Problem& flat, const Problem&, const Watch& watch) {
       return march(flat, {1, how}, watch);
     });
-  // the default brings a seed of its own, whatever the height
+  // the default solver has a seed of its own, so the height has no effect
   add(default_solver, [study](const Problem&, const Problem& problem, const Watch& watch) {
     return buckle(*study, problem, watch);
   });

@@ -17,13 +17,13 @@ using namespace simulate;
 
 namespace {
 
-// energies of one state differ by round-off, and by what joints within the tolerance are worth
+// energies of one state differ by round-off and by the tolerance of its joints; relative
 constexpr double same_energy = 1e-3;
 
-// fractions of the work, for the progress
+// fractions of the progress after which these phases are complete
 constexpr double perturbed = 0.55, measured = 0.8, followed = 0.9;
 
-/// What a trial ended in.
+/// The end of a trial: its state or its error.
 struct Trial {
   Result<State> rest = stopped();
   double energy_mJ = 0, cpu_s = 0;
@@ -56,7 +56,8 @@ Result<std::vector<Trial>> shake(const std::shared_ptr<const Scene>& scene,
       .map([&] { return std::move(trials); });
 }
 
-/// The states among the ends of trials, in the order of the trials whoever made them.
+/// The distinct states among the ends of trials, in the order of trials, which does not depend on
+/// the threads.
 std::vector<ShellState> distinct_states(const Scene& scene, const preset::SearchSettings& jitter,
                                         const std::vector<MeshSymmetry>& symmetries,
                                         std::vector<Trial> trials, record::StateSearch& search) {
@@ -90,7 +91,7 @@ tl::unexpected<Error> none_found(const record::StateSearch& search) {
 
 using Measures = std::vector<std::optional<ShellState>>;
 
-/// Keeps, in the order of their energy and once each, the states that finer meshes have.
+/// Adds the states that exist on finer meshes to the library, each once, in the order of energy.
 void keep(const Scene& scene, const preset::SearchSettings& jitter,
           const std::vector<MeshSymmetry>& symmetries, Measures& all, StateLibrary& library) {
   std::vector<std::size_t> order;
@@ -122,7 +123,7 @@ RichnessEstimate completeness_of(const std::vector<ShellState>& states) {
   return chao1(counts);
 }
 
-/// Measures what was met and lays it into the library.
+/// Measures the states that trials found and adds them to the library.
 Result<void> measure(const std::shared_ptr<const Scene>& scene,
                      const preset::SearchSettings& jitter, const SearchOptions& options,
                      const std::vector<ShellState>& met, StateLibrary& library, Watch& watch) {

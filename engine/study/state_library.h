@@ -1,5 +1,5 @@
-// What is measured on a state (its certificate on finer meshes, its symmetry, modes and life), and
-// which of the states met so far it is, modulo the symmetries of the shell.
+// The library of a shell's states: each is distinguished from the others modulo the symmetries of
+// the shell and measured (certificate on finer meshes, symmetry, modes, range in which it exists).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,31 +20,33 @@ namespace gridshell::study {
 
 using simulate::symmetries_of_shell;
 
-/// The meshes that the accuracy asks for, but two at least, of which energies are extrapolated.
+/// The meshes on which states are measured: those that the scene's accuracy requires, but at least
+/// two, over which energies are extrapolated.
 LevelPlan measuring_plan(const Scene& scene);
 
 /// A stable equilibrium of a shell at the end of its actuation.
 struct ShellState {
-  record::StateRow row;  ///< what is measured, and how often trials ended in it
+  record::StateRow row;  ///< its measures, and the number of trials that ended in it
   record::Frame frame;   ///< extrapolated as planned, upright if up and down are equivalent
-  State rest;            ///< on the mesh that states are judged on
-  double energy_mJ = 0;  ///< there, as it was met
-  Effort effort = {};    ///< of its measures
+  State rest;            ///< on the mesh of judged_edges
+  double energy_mJ = 0;  ///< on that mesh, as a trial found it
+  Effort effort = {};    ///< of measuring it
 };
 
-/// Measures states, one after another; one per thread.
+/// Measures states, one after another; one object per thread.
 class StateMeasures {
  public:
   /// `tolerance_mm`: joints displaced by less under a symmetry count as fixed. Errors (bad_input):
   /// rods that the rod model does not support.
   static Result<StateMeasures> make(std::shared_ptr<const Scene> scene, double tolerance_mm);
 
-  /// A state as it was found, with its measures but without number; empty if finer meshes do not
-  /// have it, have it unstable, or its rods exceed the allowed strain.
+  /// Measures the state `met` that a trial found; the result has no number yet. `life`: also find
+  /// the range in which it exists. Empty if the state does not exist on finer meshes, is unstable
+  /// on them, or its rods exceed the allowed strain.
   std::optional<ShellState> of(const ShellState& met, bool life, const Watch& watch);
 
   const Simulation& session() const { return session_; }
-  /// Symmetries of the finest mesh, and so of its joints.
+  /// Symmetries of the shell on the finest mesh.
   const std::vector<MeshSymmetry>& symmetries() const { return fine_; }
 
  private:
@@ -56,17 +58,18 @@ class StateMeasures {
 
   std::shared_ptr<const Scene> scene_;
   double tolerance_mm_;
-  Simulation session_, path_;  // on all meshes, and on the coarsest alone
+  Simulation session_, path_;  // on all meshes; on the coarsest alone
   std::vector<MeshSymmetry> coarse_, fine_;
 };
 
-/// States by the positions of their joints.
+/// Identifies states, modulo symmetries, by their energies and the positions of their joints.
 class StateCatalogue {
  public:
-  /// `tolerance_mm`: joints of one and the same state lie nearer than that.
+  /// `tolerance_mm`: shapes whose joints are nearer than that are one state.
   StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm);
 
-  /// The one that `joints` (3 x n, mm; energy in mJ) are an image of, if any.
+  /// Index of the state of which `joints` (3 x n, mm) are an image under a symmetry; none: it is
+  /// not in the catalogue.
   std::optional<std::size_t> find(const Eigen::Matrix3Xd& joints, double energy_mJ) const;
   /// Index of the state with these joints, which is added if it is new.
   std::size_t enter(const Eigen::Matrix3Xd& joints, double energy_mJ);
@@ -81,27 +84,24 @@ class StateCatalogue {
   std::vector<Entry> entries_;
 };
 
-// The states of a shell: searched by perturbations, distinguished modulo its symmetries, and
-// measured.
-
-/// What a search found, in the order of energy.
+/// The states that a search found.
 struct StateLibrary {
-  std::vector<ShellState> states;
-  record::StateSearch search;
+  std::vector<ShellState> states;      ///< in ascending order of energy
+  record::StateSearch search;          ///< how they were searched for
   record::Layout layout;               ///< of the frames
-  Effort effort;                       ///< of the measures
+  Effort effort;                       ///< of all measurements
   int dof = 0, edges_per_segment = 0;  ///< of the finest mesh
 };
 
 struct SearchOptions {
   int threads = 1;
-  bool lives = true;  ///< find out how far back along the path each state lives
+  bool lives = true;  ///< find the range of the path in which each state exists
 };
 
-/// Shakes the shell of a scene `jitter.trials` times, and `jitter.confined` times from symmetric
-/// forms, keeps each state once and certifies it on the meshes that the scene's accuracy asks for,
-/// two at least. The same for any number of threads. Errors: bad_input; cancelled; no_equilibrium
-/// where not one trial ends in a state, with the reasons.
+/// Perturbs the shell of a scene `jitter.trials` times, and `jitter.confined` times with an imposed
+/// symmetry, and certifies each state that it reaches, once, on the meshes of measuring_plan(). The
+/// result does not depend on the number of threads. Errors: bad_input; cancelled; no_equilibrium,
+/// with the reasons, if no trial ends in a state that finer meshes confirm.
 Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
                                  const preset::SearchSettings& jitter, const SearchOptions& options,
                                  Watch& watch);
@@ -112,7 +112,7 @@ struct StateSearchRun {
   record::StateTables tables;
 };
 
-/// The state of lowest energy of a library that has one, as a run's summary.
+/// Summary of the state of lowest energy. The library has at least one state.
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
                            const StateLibrary& library);
 
@@ -121,21 +121,22 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                                   Watch& watch);
 
-// Transitions between perturbed states, and the barriers between them. Both functions report their
-// progress to the watch from `begun` to `end`. Errors: bad_input, cancelled.
+// Transitions and energy barriers between the states of a library. Both functions report their
+// progress to the watch, from `begun` to `end`. Errors: bad_input, cancelled.
 
-/// Releases the boundary of the first `jitter.transitions` states of a library until each ends, and
-/// contracts it again; and pushes each eight times. A transition to a state that is not in the
-/// library has the target 0; runs that do not converge are left out.
+/// The states that the first `jitter.transitions` states of a library become when they are
+/// perturbed: once by releasing the boundary past the end of the state's range and contracting it
+/// again, and by eight random sets of pushes. A transition to a state that is not in the library
+/// has the target 0; perturbations that do not converge are left out.
 Result<std::vector<record::Transition>> transitions_between(
     const StateLibrary& library, const std::shared_ptr<const Scene>& scene,
     const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch);
 
-/// The lowest mountain passes between the states of a library that its picture shows: a
-/// minimum-energy path is computed from each to the nearest images of two others, and from the
-/// saddle a descent on either side, whatever states it reaches. Of several passes between two
-/// states the lowest is kept. On the mesh that states are judged on. The numbers of paths and
-/// passes are written to `library.search`, the lowest barrier of each state to its row.
+/// The lowest mountain passes between the states of a library that its picture shows, on the mesh
+/// of judged_edges. A minimum-energy path is computed from each state to the nearest images of two
+/// others. A descent from the saddle on either side finds the states that the pass connects. Of
+/// several passes between two states the lowest is returned. The numbers of paths and passes are
+/// written to `library.search`, the lowest barrier of each state to its row.
 Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
                                                       const std::shared_ptr<const Scene>& scene,
                                                       const preset::SearchSettings& jitter,

@@ -22,10 +22,11 @@ using namespace simulate;
 
 namespace {
 
-constexpr double largest_step = 0.05;  // in the path parameter: where a branch is requested
-constexpr double located = 1e-3;       // in it: to which the end of a branch is located
+constexpr double largest_step = 0.05;  // of the path parameter, on the path of a requested branch
+constexpr double located = 1e-3;       // of the path parameter: accuracy of the end of a branch
 
-/// The paper's ii and iii break the symmetry by rods of higher modes: a dome that leans is neither.
+/// The paper's classes ii and iii break the symmetry by rods of higher modes: a dome of first-mode
+/// rods that leans is neither.
 record::StateClass class_of(const std::string& group, bool first_mode) {
   using record::StateClass;
   if (group == "C4v") return first_mode ? StateClass::i : StateClass::iv;
@@ -34,7 +35,8 @@ record::StateClass class_of(const std::string& group, bool first_mode) {
   return group == "C4" ? StateClass::iii : StateClass::other;
 }
 
-/// "0 0 2 | 0 1 0", u rods before the bar; of a network that is no grid without one.
+/// Inflections of every rod, "0 0 2 | 0 1 0", u rods before the bar; without a bar for a network
+/// that is not a grid.
 std::string modes_told(const std::vector<int>& modes, const Footprint& footprint) {
   std::vector<int> u, v, other;
   for (std::size_t r = 0; r < modes.size(); ++r) {
@@ -48,7 +50,7 @@ std::string modes_told(const std::vector<int>& modes, const Footprint& footprint
 }  // namespace
 
 LevelPlan measuring_plan(const Scene& scene) {
-  // trials end on the mesh that leads here
+  // trials end on the mesh of judged_edges, so it is the coarsest
   const int finest = std::max(2 * judged_edges, initial_levels(scene).edges_per_segment.back());
   LevelPlan plan{{judged_edges}, true};
   while (2 * plan.edges_per_segment.back() <= finest)
@@ -102,14 +104,14 @@ double StateMeasures::eigenvalue(const Watch& watch) {
   return (4 * on(last) - on(last - 1)) / 3;
 }
 
-/// Back along the path, on the mesh that states are judged on, until the branch ends.
+/// Follows the branch of a state back towards the flat, on the mesh of judged_edges, until it ends.
 void StateMeasures::put_life(const State& rest, record::StateRow& row, const Watch& watch) {
   const NestedShell& shell = path_.shell();
   if (path_.begin_at(1, rest, watch).end != Outcome::reached) return;
   const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
   const double to = nearly_flat && !scene_->drawn_in_space ? std::min(*nearly_flat, 1.0) : 0;
   double good = path_.go(to, watch, {.requested = false}).t;
-  // it ended within the load step after that
+  // the branch ends within one load step of the last state that was reached
   double bad = std::max(to, good - largest_step);
   while (good > to && good - bad > located && !watch.cancelled()) {
     const double middle = 0.5 * (good + bad);

@@ -22,7 +22,7 @@ const LevelPlan judged_plan{{judged_edges}, false};
 /// Distinguishes the random generators of trials.
 enum class Purpose : std::uint32_t { trial, confined, poke };
 
-/// A generator a trial, so that any trial can be made by itself.
+/// One generator per trial, so that any trial can be repeated by itself.
 std::mt19937 generator(int seed, Purpose purpose, int k) {
   std::seed_seq seeds{std::uint32_t(seed), std::uint32_t(purpose), std::uint32_t(k)};
   return std::mt19937(seeds);
@@ -30,7 +30,7 @@ std::mt19937 generator(int seed, Purpose purpose, int k) {
 
 double random_fraction(std::mt19937& random) { return 0.5 * (1 + symmetric_uniform(random)); }
 
-/// A random direction, each equally likely.
+/// A random unit vector, uniformly distributed.
 Eigen::Vector3d direction(std::mt19937& random) {
   const double z = symmetric_uniform(random), angle = M_PI * symmetric_uniform(random),
                r = std::sqrt(1 - z * z);
@@ -40,7 +40,7 @@ Eigen::Vector3d direction(std::mt19937& random) {
 tl::unexpected<Error> no_rest(std::string why) {
   return fail(Fault::no_equilibrium, std::move(why));
 }
-/// Errors of solvers name numbers; trials are counted by what happened.
+/// Replaces a solver's error, which has numbers in it, by a reason by which trials are counted.
 Result<State> in_few_words(Result<State> rest, const char* why) {
   if (!rest && rest.error().fault == Fault::no_equilibrium) return no_rest(why);
   return rest;
@@ -72,7 +72,7 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
     if (jitter.mode == SearchMode::random) continue;
     auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
     if (watch.cancelled()) return stopped();
-    // the state reached decides, below
+    // whether the level was reached is tested below
     if (course && scene->from_net) (void)course->simulation.go(forms.back().t, watch);
     const bool there = course && course->simulation.shell().state().t == forms.back().t;
     if (there)
@@ -97,7 +97,7 @@ StateSearcher::StateSearcher(std::shared_ptr<const Scene> scene,
       groups_(subgroups(symmetries_)),
       cascade_(std::move(cascade)),
       session_(std::move(session)) {
-  // what lies between joints counts half to each
+  // half of the rod between two joints belongs to each
   const RodMesh mesh = mesh_rods(scene_->footprint, 1);
   joint_length_ = lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0)).head(mesh.joints);
   for (int joint = 0; joint < mesh.joints; ++joint)
@@ -144,7 +144,7 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
   for (unsigned k = 0; k < pushes; ++k) {
     const int joint = pushable_[random() % std::uint32_t(pushable_.size())];
     const double depth = jitter_.depth * scene_->footprint.spacing * random_fraction(random);
-    // how far it came is far enough: a user stops where the rods reach the strain limit
+    // a push may end early: a user, too, stops when the rods reach the strain limit
     (void)session_.push(joint, depth * direction(random), Across::free, watch);
     if (watch.cancelled()) return stopped();
     TRY_DO(reached_or(session_.release(joint, watch).end, "did not converge when it was released",
@@ -156,7 +156,7 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
 /// Moves the simulation from its current state along the scene's own motion.
 Result<State> StateSearcher::go(double t, const Watch& watch) {
   Report report = session_.go(t, watch);
-  // a scene that chooses no branch continues through unstable states
+  // a scene that does not choose a branch continues through unstable states
   if (report.end == Outcome::reached && !report.certificate.stable()) report = session_.rest(watch);
   if (watch.cancelled()) return stopped();
   if (report.end == Outcome::locked) return no_rest("the rods reached the strain limit");

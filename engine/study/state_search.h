@@ -1,5 +1,5 @@
-// Search for other states of a shell by perturbations [Baek 2018, 'DER Simulations and Jittering
-// Algorithm']: one trial after another, each with its own seed.
+// Search for other states of a shell by random perturbations [Baek 2018, 'DER Simulations and
+// Jittering Algorithm']: independent trials, each with its own seed.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@ namespace gridshell::study {
 /// Edges per segment of the mesh that trials end on and that distinguishes states.
 inline constexpr int judged_edges = 4;
 
-/// A state that the actuation passed: the start of a perturbation.
+/// A state on the path of the actuation that trials perturb.
 struct StartForm {
   double t = 1;  ///< path parameter
-  State state;   ///< on the mesh that states are judged on
+  State state;   ///< on the mesh of judged_edges
 };
 
-/// The forms at every level of `jitter` (its mode's own where it names none), along the path that
-/// the actuation takes. A level that the path does not reach is left out; for "random" forms are
-/// not needed and only their parameters are set. Errors: bad_input, cancelled; no_equilibrium where
-/// none is reached.
+/// The states on the path of the actuation at the levels (progress) of `jitter`, or at the default
+/// levels of its mode. A level that the path does not reach is left out. The mode "random" needs no
+/// states: only their parameters are set. Errors: bad_input, cancelled; no_equilibrium if no level
+/// is reached.
 Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>& scene,
                                               const preset::SearchSettings& jitter,
                                               const Watch& watch);
@@ -38,21 +38,23 @@ class StateSearcher {
                                     const preset::SearchSettings& jitter,
                                     const std::vector<StartForm>& forms);
 
-  /// The stable equilibrium, at the end of the actuation, that trial k reaches on the mesh that
-  /// states are judged on. Errors: no_equilibrium with the reason, in a few words that many trials
-  /// share; cancelled.
+  /// The stable equilibrium at the end of the actuation that trial k reaches, on the mesh of
+  /// judged_edges. Errors: no_equilibrium, with a short reason without numbers, so that trials can
+  /// be counted by it; cancelled.
   Result<State> trial(int k, const Watch& watch);
-  /// A trial from a form with the imposed symmetry of the k-th of groups(), counted cyclically.
+  /// A trial from random positions that minimises the energy with the symmetry of the k-th of
+  /// groups(), counted cyclically, before it does so without. Errors as trial().
   Result<State> symmetric_trial(int k, const Watch& watch);
-  /// From a state at the end of the actuation: the boundary released to progress `to` and
-  /// contracted again, past the snaps on its path. Errors as trial().
+  /// The state that `from`, at the end of the actuation, becomes if the boundary is released to
+  /// progress `to` and contracted again; it may snap on the path. Errors as trial().
   Result<State> release_boundary(const State& from, double to, const Watch& watch);
-  /// Applies random pushes, the k-th set of this state.
+  /// The state that `from` becomes after the k-th set of random pushes, which is the same for all
+  /// states. Errors as trial().
   Result<State> push_at_random(const State& from, int k, const Watch& watch);
 
   const std::vector<SymmetryGroup>& groups() const { return groups_; }
   const std::vector<MeshSymmetry>& symmetries() const { return symmetries_; }
-  /// Positions of the joints and energy (mJ) of a state on that mesh.
+  /// Positions of the joints (3 x n, mm) and energy (mJ) of a state on the mesh of judged_edges.
   Eigen::Matrix3Xd joints_of(const State& state) const;
   double energy_of(const State& state) { return cascade_.system().energy_at(state); }
   MultilevelRelaxation& cascade() { return cascade_; }
@@ -71,9 +73,9 @@ class StateSearcher {
   std::shared_ptr<const Scene> scene_;
   preset::SearchSettings jitter_;
   const std::vector<StartForm>* forms_;
-  std::vector<MeshSymmetry> symmetries_;  // of the shell, on the mesh that states are judged on
+  std::vector<MeshSymmetry> symmetries_;  // of the shell, on the mesh of judged_edges
   std::vector<SymmetryGroup> groups_;
-  Eigen::VectorXd joint_length_;  // of rod that belongs to each joint, mm
+  Eigen::VectorXd joint_length_;  // length of the rods that belongs to each joint, mm
   std::vector<int> pushable_;     // joints without a support
   MultilevelRelaxation cascade_;
   Simulation session_;

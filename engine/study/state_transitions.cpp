@@ -17,11 +17,11 @@ namespace {
 using record::Disturbance;
 using record::StateName;
 
-constexpr int pushes = 8, paths = pushes + 1;  // of a state; on the first its boundary is released
-constexpr double beyond = 0.98;                // of the progress at which a state ends
+constexpr int pushes = 8, paths = pushes + 1;  // per state; on the first the boundary is released
+constexpr double beyond = 0.98;                // times the progress at which a state ends
 
-/// The shell on the mesh that states are judged on, and a library's states by what they look like
-/// there; one per thread.
+/// Perturbs states on the mesh of judged_edges, and identifies those of a library by their joints
+/// on that mesh; one object per thread.
 struct Explorer {
   StateSearcher hand;
   StateCatalogue catalogue;
@@ -38,7 +38,7 @@ struct Explorer {
     return Explorer{std::move(*hand), std::move(catalogue), &library};
   }
 
-  /// The library's state that this is, or none.
+  /// The library's state with these joints and energy, or 0.
   StateName name_of(const State& rest, double energy_mJ) const {
     const auto at = catalogue.find(hand.joints_of(rest), energy_mJ);
     return at ? library->states[*at].row.in_tables() : StateName{};
@@ -55,16 +55,17 @@ void count(std::vector<record::Transition>& all, StateName from, StateName to, D
     all.push_back({from, to, by, 1});
 }
 
-constexpr int neighbours = 2;         // of each state
-constexpr double step_down_mm = 0.5;  // off a saddle, and steps from there
-constexpr double step_over_d = 0.1;   // of a node of a string that goes down
+constexpr int neighbours = 2;         // paths from each state
+constexpr double step_down_mm = 0.5;  // of the descent from a saddle
+constexpr double step_over_d = 0.1;   // largest step of a point of the path between two states
 
-/// Two states to be joined by a path, and which image of the second is nearest to the first.
+/// Two states to be joined by a path, and the symmetry whose image of the second is nearest to the
+/// first.
 struct Pairing {
   std::size_t from = 0, to = 0, symmetry = 0;
 };
 
-/// What the two sides of a pass lead to.
+/// A pass and the states to which the descents on its two sides lead.
 struct Crossing {
   StateName from, to;  ///< as Barrier
   double from_mJ = 0, to_mJ = 0;
@@ -77,8 +78,8 @@ class Crossings {
   Crossings(Explorer explorer, double spacing)
       : explorer_(std::move(explorer)), spacing_(spacing) {}
 
-  /// The paths to the nearest states: of the images if the bend model allows it, else of the states
-  /// as they are.
+  /// Each state with the nearest others, each pair once. The nearest image under a symmetry is
+  /// chosen if the model has no twist angles, otherwise the state itself.
   std::vector<Pairing> pairings(const std::vector<std::size_t>& drawn) const {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     std::vector<Pairing> all;
@@ -165,7 +166,7 @@ record::Barrier barrier_of(const Crossing& crossing) {
   barrier.barrier_mJ = crossing.pass.energy_mJ - crossing.from_mJ;
   barrier.back_mJ = crossing.pass.energy_mJ - crossing.to_mJ;
   barrier.residual_N = crossing.pass.residual_N;
-  // from the state that is known, and of two known ones from the lower
+  // from the state that is in the library, and of two such states from the lower
   if (barrier.from == 0 || (barrier.to != 0 && barrier.to < barrier.from)) {
     std::swap(barrier.from, barrier.to);
     std::swap(barrier.barrier_mJ, barrier.back_mJ);
@@ -173,8 +174,8 @@ record::Barrier barrier_of(const Crossing& crossing) {
   return barrier;
 }
 
-/// The lowest of several passes between the same two states, in the order of the states; a pass
-/// between two states that were not found is ignored.
+/// The lowest of several passes between the same two states, in the order of the states. A pass
+/// between two states that are not in the library is ignored.
 std::vector<record::Barrier> lowest_each(std::vector<record::Barrier> all) {
   std::erase_if(all, [](const record::Barrier& one) { return one.from == 0; });
   std::ranges::stable_sort(all, {}, [](const record::Barrier& one) {

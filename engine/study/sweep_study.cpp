@@ -57,7 +57,7 @@ record::Figures more_of(const Scene* scene, const record::Frame& last) {
           {"stiffness_ratio", ratio}};
 }
 
-/// The legs of a circle; names alone where there is no preset.
+/// The legs of a circle; the names without values if there is no preset or no circle.
 record::Figures legs_of(const preset::Preset* preset) {
   record::Figures legs{{record::longest_leg_name, {}}, {record::corner_leg_name, {}}};
   if (!preset || preset->footprint.kind != preset::FootprintKind::circle) return legs;
@@ -88,7 +88,8 @@ using record::PointResult;
 
 constexpr double no_limit_s = 1e9;
 
-/// A point computed; an error where that is not the point's own.
+/// Computes a point. An error of the point itself is part of its result; io and cancelled are
+/// returned as errors.
 Result<PointResult> result_of(const preset::SweepGrid& grid, std::size_t point, Watch& watch) {
   PointResult result;
   result.point = point;
@@ -113,7 +114,7 @@ Result<record::Figures> figures_of(const preset::Preset& requested, Watch& watch
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
   if (preset.jitter.requested()) return figures_of_search(preset, scene, watch);
-  // the last state is what counts: the end, or where a path ends early the last sample before that
+  // figures are those of the last state: the end, or of a path that ends early its last sample
   preset.figure.radii_mm.clear();
   preset.movie.frames = samples;
   const bool end_alone = preset.actuation.start == preset::Start::net;
@@ -172,7 +173,7 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
     TimeLimit none(no_limit_s, watch);
     TRY(result, result_of(grid, points[std::size_t(k)], none.watch()));
     const std::lock_guard lock(one_at_a_time);
-    // nothing more is handed over once that failed
+    // after the first failure of `finished` it is not called again
     if (refused) return stopped();
     auto kept = finished(std::move(*result));
     refused = !kept;

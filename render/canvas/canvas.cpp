@@ -62,7 +62,7 @@ bool Canvas::on_dark() const { return is_dark(paper_); }
 
 void Canvas::paint_path(Colour fill, const Stroke& stroke) {
   if (fill.a > 0) {
-    // what is hollow, or hides what lies below, shows the paper
+    // white areas (hollow markers, or areas that hide others) get the colour of the paper
     const bool blank = fill.r == 1 && fill.g == 1 && fill.b == 1;
     set_colour(!on_dark() ? fill
                : blank    ? Colour{paper_.r, paper_.g, paper_.b, fill.a}
@@ -135,7 +135,7 @@ void Canvas::marker(Marker kind, Point p, double size, Colour fill, const Stroke
           {{p.x, p.y - 1.15 * h}, {p.x + 1.1 * h, p.y + 0.75 * h}, {p.x - 1.1 * h, p.y + 0.75 * h}},
           fill, stroke);
     case Marker::cross: {
-      // a cross has no inside: it is drawn in the marker's own colour
+      // a cross has no area, so its lines have the colour of the fill
       const Stroke bar{fill, std::max(stroke.width, size / 5), {}};
       line({p.x - 0.8 * h, p.y - 0.8 * h}, {p.x + 0.8 * h, p.y + 0.8 * h}, bar);
       return line({p.x - 0.8 * h, p.y + 0.8 * h}, {p.x + 0.8 * h, p.y - 0.8 * h}, bar);
@@ -183,8 +183,6 @@ void Canvas::clipped(const Box& box, const std::function<void()>& inside) {
   cairo_restore(cairo_);
 }
 
-// What a canvas ends as.
-
 namespace {
 
 struct Free {
@@ -195,7 +193,7 @@ using Surface = std::unique_ptr<cairo_surface_t, Free>;
 using Cairo = std::unique_ptr<cairo_t, Free>;
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
-  // nothing may be thrown through the library
+  // no exception may pass through Cairo, which is written in C
   try {
     static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
   } catch (const std::exception&) {
@@ -204,7 +202,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-// frames are opaque, and then there is nothing to multiply
+// whether all pixels are opaque, as those of frames are: then nothing is multiplied
 bool opaque(const std::uint8_t* pixel, int pixels) {
   std::uint8_t all = 255;
   for (int k = 0; k < pixels; ++k) all &= pixel[4 * k + 3];
@@ -307,7 +305,7 @@ std::string draw_pdf(double width, double height, const std::string& title,
   std::string pdf;
   Surface surface(cairo_pdf_surface_create_for_stream(append, &pdf, width, height));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
-  // no clock in the bytes
+  // a fixed date, so that equal drawings give equal bytes
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2018-01-01T00:00:00Z");
   for (const DrawOn& draw : pages) {
@@ -323,7 +321,7 @@ std::string draw_pdf(double width, double height, const std::string& title,
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
                           const std::string& title, const DrawOn& draw, const Print& print) {
   const auto file = [&](const char* kind) { return std::filesystem::path(stem) += kind; };
-  // text is plain in a title
+  // the title of a file has no markup
   const std::string name = without_marks(title);
   const double scale = print.width_pt(width_pt) / width_pt;
   const double width = scale * width_pt, height = scale * height_pt;
@@ -331,7 +329,7 @@ Result<void> write_figure(const std::filesystem::path& stem, double width_pt, do
     canvas.set_paper(print.background);
     canvas.enlarged(scale, [&] { draw(canvas); });
   };
-  // a page's own white is left to what it is printed on
+  // a white background is not drawn: it is that of the paper
   const DrawOn on_paper = [&](Canvas& canvas) {
     if (print.background != white) canvas.rectangle({0, 0, width, height}, print.background);
     enlarged(canvas);

@@ -1,6 +1,6 @@
-// One surface to draw lines, areas and text on, whatever it ends as: a finished frame, a PNG or an
-// SVG. Lengths are in units of the canvas, x to the right, y down: pixels over a frame, points
-// (1/72 inch) on a figure. Made with Cairo and Pango.
+// A canvas on which lines, areas and text are drawn (by Cairo and Pango), over a frame or as a PNG,
+// SVG or PDF. Lengths are in units of the canvas, x to the right, y down: pixels over a frame,
+// points (1/72 inch) on a figure.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace gridshell::render {
 
 inline constexpr double points_per_mm = 72 / 25.4;
 
-/// Colours of text and axes, and of what is on dark.
+/// Colours of text and axes, on white and on dark.
 inline constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, white{1, 1, 1, 1};
 
 struct Point {
@@ -38,14 +38,14 @@ struct Box {
   Box inset(double margin) const;
 };
 
-/// Maps points of a plane (or of space, seen from above) to a canvas, y up.
+/// Maps points of a plane (or of space, seen from above), y up, to a canvas.
 struct PlanView {
-  Point at;                ///< where `middle` goes
+  Point at;                ///< position of `middle` on the canvas
   Eigen::Vector2d middle;  ///< mm
-  double scale = 1;        ///< units of the canvas a millimetre
+  double scale = 1;        ///< units of the canvas per millimetre
 
-  /// What contains all of `points` (at least 2 rows; one per column), as large as fits into the
-  /// box.
+  /// The largest view that shows all of `points` (at least 2 rows, one column per point, at least
+  /// one) in the box.
   PlanView(const Box& box, const Eigen::MatrixXd& points);
   PlanView(Point at_, const Eigen::Vector2d& middle_, double scale_)
       : at(at_), middle(middle_), scale(scale_) {}
@@ -65,7 +65,7 @@ struct Stroke {
 };
 
 enum class AlignX { left, centre, right };
-enum class AlignY { top, middle, baseline, bottom };  ///< of the line's height, not its ink
+enum class AlignY { top, middle, baseline, bottom };  ///< of the line's height, not of the letters
 
 struct TextStyle {
   double size = 9;  ///< of the font (one em), in units of the canvas
@@ -77,20 +77,21 @@ struct TextStyle {
   Colour halo{1, 1, 1, 0};  ///< a rim around the letters, for text over a picture
 };
 
-/// Text marks: `_{a}` lowers, `^{−3}` raises, `*R*` slants. `plain` protects text that is to be
-/// shown as it is (a file's name, a user's title).
+/// Escapes a text without markup (a file's name, a user's title), so that it is shown as it is.
+/// Markup is `_{a}` (lowered), `^{−3}` (raised) and `*R*` (slanted).
 std::string plain(const std::string& text);
 
 enum class Marker { none, circle, square, diamond, triangle, cross };
 
-/// The family of text where none is chosen: it has every sign that is used.
+/// The default font family, which has every sign that is used.
 inline constexpr const char* default_font = "DejaVu Sans";
 
-/// The family of all text from here on, in the whole process; empty: the usual one. Errors:
-/// bad_input for one that the machine does not have.
+/// Sets the font family of all text drawn later in this process; empty: the default. Errors:
+/// bad_input for a family that the machine does not have.
 Result<void> use_font(const std::string& family);
 
-/// The surface; made by draw_over, draw_picture and draw_svg below.
+/// The canvas that draw_over, draw_picture, draw_svg and draw_pdf pass to their drawing. On dark
+/// paper (set_paper) neutral text and lines are drawn lighter.
 class Canvas {
  public:
   Canvas(cairo_t* cairo, double width, double height);
@@ -107,45 +108,49 @@ class Canvas {
   void rectangle(const Box& box, Colour fill, const Stroke& stroke = {{}, 0},
                  double corner_radius = 0);
   void circle(Point centre, double radius, Colour fill, const Stroke& stroke = {{}, 0});
-  /// `size` is the width of the marker's ink
+  /// Draws a marker of width `size`.
   void marker(Marker kind, Point at, double size, Colour fill, const Stroke& stroke);
   void picture(const Image& image, const Box& box);
 
-  /// One line of text (or several, parted by \n) at an anchor. Returns the box of its ink.
+  /// Draws text with markup at an anchor, in several lines if it contains \n. Returns the bounding
+  /// box of its letters.
   Box text(const std::string& marked, Point anchor, const TextStyle& style);
-  /// The box `text` would take: its line height and advance, before rotation, anchor at (0, 0).
+  /// The box of a text by its line height and advance, without rotation and with its anchor at
+  /// (0, 0).
   Box measure(const std::string& marked, const TextStyle& style) const;
-  /// The style with its size lessened so that the text is at most `width` wide, but to no less than
-  /// `least` of it.
+  /// The style with its size reduced so that the text is at most `width` wide, but not below the
+  /// fraction `least` of the size.
   TextStyle fitted(const std::string& marked, double width, TextStyle style,
                    double least = 0) const;
-  /// The text broken at blanks so that no line is wider than `width`; a longer word has its own.
+  /// The text in lines, broken at blanks, that are at most `width` wide; a longer word has a line
+  /// of its own.
   std::vector<std::string> wrapped(const std::string& plain_text, double width,
                                    const TextStyle& style) const;
   /// The text shortened by '…' to at most `width`.
   std::string shortened(const std::string& plain_text, double width, const TextStyle& style) const;
 
-  /// What `inside` draws is cut off at the box.
+  /// Calls `inside`, whose drawing is clipped to the box.
   void clipped(const Box& box, const std::function<void()>& inside);
 
-  /// all texts drawn so far without their marks, in order
+  /// all texts drawn so far without their markup, in order
   const std::vector<std::string>& texts() const { return texts_; }
-  /// ink boxes of all texts drawn so far, in order, and of all markers that are not cut off
+  /// bounding boxes of the letters of all texts drawn so far, in order, and of all markers that are
+  /// not clipped
   const std::vector<Box>& text_boxes() const { return text_boxes_; }
   const std::vector<Box>& marker_boxes() const { return markers_; }
 
-  /// What `inside` draws is `scale` times as large.
+  /// Calls `inside`, whose drawing is `scale` times as large.
   void enlarged(double scale, const std::function<void()>& inside);
 
-  /// What lies below: neutral text and lines that it would swallow are drawn lighter.
+  /// Sets the colour on which is drawn. On a dark one neutral text and lines are drawn lighter.
   void set_paper(Colour paper) { paper_ = paper; }
 
-  /// From here on text is not drawn but kept as SVG elements, so that it stays text.
+  /// From now on texts are not drawn but collected as SVG elements, so that they remain text.
   void keep_text() { keeps_text_ = true; }
   const std::string& text_elements() const { return text_elements_; }
 
-  /// Called with every canvas that is finished, on the thread that drew it; to be set while nothing
-  /// is drawn.
+  /// Called with every finished canvas, on the thread that drew it (for tests); to be set while
+  /// nothing is drawn.
   static inline std::function<void(const Canvas&)> on_finished;
 
  private:
@@ -159,12 +164,12 @@ class Canvas {
   cairo_t* cairo_;
   double width_, height_;
   bool keeps_text_ = false;
-  double scale_ = 1;  ///< of what enlarged() draws
+  double scale_ = 1;  ///< product of the scales of enlarged()
   std::string text_elements_;
   std::vector<std::string> texts_;
   std::vector<Box> text_boxes_, markers_;
   Colour paper_ = white;
-  Box clip_;  ///< empty: everything is drawn
+  Box clip_;  ///< of clipped(); empty: none
 };
 
 using DrawOn = std::function<void(Canvas&)>;
@@ -172,38 +177,39 @@ using DrawOn = std::function<void(Canvas&)>;
 /// Draws over a picture; the canvas unit is a pixel.
 void draw_over(Image& image, const DrawOn& draw);
 
-/// A picture of width x height units at `pixels_per_unit`, on a background.
+/// A picture of width x height units at `pixels_per_unit`, drawn on a background.
 Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
                    const DrawOn& draw);
 
-/// An SVG of width x height points whose text stays text, in its font or a replacement of it;
-/// `title` and all texts are in its <title> and <desc> for search and screen readers.
+/// An SVG of width x height points whose text remains text, in its font or a replacement of it;
+/// `title` and all texts are in its <title> and <desc> for search and screen readers. `paper`: on a
+/// white rectangle.
 std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw,
                      bool paper = true);
 
-/// A PDF of pages of width x height points with its fonts in it; the same drawings give the same
+/// A PDF with pages of width x height points and its fonts embedded; equal drawings give equal
 /// bytes.
 std::string draw_pdf(double width, double height, const std::string& title,
                      const std::vector<DrawOn>& pages);
 
-/// How a figure is printed.
+/// Size and background of a printed figure.
 struct Print {
-  double width_mm = 0;  ///< 0: the figure's own
+  double width_mm = 0;  ///< 0: the figure's own width
   double dpi = 300;
   Colour background = white;  ///< alpha 0: none
 
-  /// Width in points; `usual` where it is the figure's own.
+  /// Width in points; `usual` is the figure's own.
   double width_pt(double usual) const { return width_mm > 0 ? width_mm * 72 / 25.4 : usual; }
   bool operator==(const Print&) const = default;
 };
 
-/// Writes one drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
-/// absent, enlarged to the width of print. Errors: Fault::io naming the path.
+/// Writes a drawing, enlarged to the printed width, as `<stem>.png` with its dpi, `<stem>.svg` and
+/// `<stem>.pdf`. A file that cannot be written is absent. Errors: Fault::io with the path.
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
                           const std::string& title, const DrawOn& draw, const Print& print = {});
 
-// Between the renderer's pixels (RGBA, not premultiplied) and Cairo's (premultiplied, in the
-// machine's byte order: BGRA on the little-endian machines this runs on).
+// Conversion between the renderer's pixels (RGBA, not premultiplied) and Cairo's (premultiplied, in
+// the machine's byte order: BGRA, since only little-endian machines are supported).
 
 void premultiply(const std::uint8_t* rgba, unsigned char* bgra, int pixels);
 void unpremultiply(const unsigned char* bgra, std::uint8_t* rgba, int pixels);

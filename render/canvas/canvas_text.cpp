@@ -18,7 +18,7 @@
 namespace gridshell::render {
 namespace {
 
-// of the process, as fontconfig's choice is
+// the font family of all text in the process
 std::string& font_family() {
   static std::string family = default_font;
   return family;
@@ -35,15 +35,15 @@ void insert(PangoAttrList* list, PangoAttribute* attribute, guint from, guint to
   pango_attr_list_insert(list, attribute);
 }
 
-constexpr double least_script = 5;  // points: what print keeps
+constexpr double least_script = 5;  // points: smallest letters that are readable in print
 
-/// Size and rise of a piece of text, over those of the whole.
+/// Size and rise of a piece of text over the font's size.
 struct ScriptLook {
   double size = 1, rise = 0;
 };
 ScriptLook look_of(const TextRun& run) {
   if (run.level == 0) return {};
-  // the sign of a cell is small and near the line: a letter's box looks like a missing letter
+  // the symbol of a cell is smaller, since a box of a letter's size looks like a missing letter
   if (run.text == "□") return {0.72 * script_size, -0.5 * lowered_by};
   return {script_size, run.level > 0 ? raised_by : -lowered_by};
 }
@@ -68,7 +68,7 @@ PangoAttrList* attributes(const std::vector<TextRun>& runs, double size) {
 }
 
 Layout make_layout(cairo_t* cairo, const std::string& marked, const TextStyle& style) {
-  // Pango asserts on text that is no UTF-8; a user's title may be anything
+  // Pango aborts on text that is not UTF-8, as a user's title may be
   std::string safe = marked;
   if (!g_utf8_validate(safe.data(), gssize(safe.size()), nullptr)) {
     char* valid = g_utf8_make_valid(safe.data(), gssize(safe.size()));
@@ -84,7 +84,7 @@ Layout make_layout(cairo_t* cairo, const std::string& marked, const TextStyle& s
   // at 72 dpi a point of the font is a unit of the canvas
   pango_cairo_context_set_resolution(context, 72);
   cairo_font_options_t* options = cairo_font_options_create();
-  // no hinting: letters are where they are measured, at any scale
+  // without hinting letters are exactly at their measured positions, at any scale
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -113,7 +113,7 @@ Box to_box(const PangoRectangle& r) {
   return {r.x / s, r.y / s, r.width / s, r.height / s};
 }
 
-// where the layout's upper left corner lies when its anchor is at (0, 0)
+// position of the layout's upper left corner if its anchor is at (0, 0)
 Point corner(PangoLayout* layout, const Box& logical, const TextStyle& style) {
   Point p;
   if (style.align_x == AlignX::centre) p.x = -logical.width / 2;
@@ -130,7 +130,8 @@ std::string hex(Colour c) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
 }
 
-// every piece of one look at its position, `at` being the layout's upper left corner
+// an SVG element of a text, each piece of one look at its position; `at` is the layout's upper left
+// corner
 std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, Point anchor,
                          Point at, const TextStyle& style, double scale) {
   std::string spans;
@@ -212,7 +213,7 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
   }
   set_colour(on_dark() ? text_on_dark(style.colour) : style.colour);
   if (cairo_surface_get_type(cairo_get_target(cairo_)) == CAIRO_SURFACE_TYPE_IMAGE) {
-    // as outlines: letters of a font are put at whole pixels by Cairo 1.16 and at quarters by 1.18
+    // as outlines, since Cairo 1.16 rounds the positions of letters to pixels, 1.18 to quarters
     pango_cairo_layout_path(cairo_, layout.get());
     cairo_fill(cairo_);
   } else if (!keeps_text_) {
@@ -221,7 +222,7 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
   cairo_restore(cairo_);
   cairo_new_path(cairo_);
 
-  // the turned ink's bounding box
+  // the bounding box of the rotated letters
   const Box ink = to_box(ink_rectangle);
   double x0 = std::numeric_limits<double>::infinity(), y0 = x0, x1 = -x0, y1 = -x0;
   for (double x : {at.x + ink.x, at.x + ink.right()})
@@ -269,7 +270,7 @@ std::string Canvas::shortened(const std::string& text, double width, const TextS
   if (measure(plain(text), style).width <= width) return text;
   std::string kept = text;
   while (!kept.empty()) {
-    // take a complete UTF-8 letter off the end, and the blanks before it
+    // remove the last letter, which may have several bytes of UTF-8, and the blanks before it
     while (!kept.empty() && (static_cast<unsigned char>(kept.back()) & 0xC0) == 0x80)
       kept.pop_back();
     if (!kept.empty()) kept.pop_back();

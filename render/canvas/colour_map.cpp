@@ -17,12 +17,12 @@ Oklab mix(Oklab p, Oklab q, double t) {
   return {p.L + (q.L - p.L) * t, p.a + (q.a - p.a) * t, p.b + (q.b - p.b) * t};
 }
 
-// polar form: chroma and hue in radians
+// a colour by lightness, chroma and hue (rad)
 Oklab from_polar(double L, double chroma, double hue) {
   return {L, chroma * std::cos(hue), chroma * std::sin(hue)};
 }
 
-// a smooth curve through the knots [Catmull and Rom 1974], in `count` points of equal distance
+// `count` points at equal distances on a smooth curve through the knots [Catmull and Rom 1974]
 std::vector<Oklab> even_steps(const std::vector<Oklab>& knots, int count) {
   const int fine = 64, last = int(knots.size()) - 1;
   const auto at = [&](int k) { return knots[std::size_t(std::clamp(k, 0, last))]; };
@@ -89,7 +89,7 @@ Colour readable(Colour colour) {
 }
 
 Colour diverging(double t, double start) {
-  // lightness and chroma of the ends are the strongest that both hues have within sRGB
+  // the ends have the largest chroma that both hues have at this lightness within sRGB
   constexpr double middle_L = 0.975, end_L = 0.46, end_chroma = 0.165;
   constexpr double blue = 258 * 3.14159265358979 / 180, red = 26 * 3.14159265358979 / 180;
   t = std::clamp(t, -1.0, 1.0);
@@ -122,13 +122,13 @@ Colour grey(double t, double start) { return to_colour({0.95 - 0.75 * begun(t, s
 
 Colour ColourScale::operator()(double value) const {
   if (!std::isfinite(value)) return {0.6f, 0.6f, 0.6f, 1};
-  // about zero, whichever part of the map the scale shows
+  // a diverging map is symmetric about zero, whichever part of it the scale shows
   if (map == diverging || map == diverging_in_print) {
     const double end = std::max(std::abs(low), std::abs(high));
     return map(end > 0 ? std::clamp(value, low, high) / end : 0, start);
   }
   const double t = high > low ? (value - low) / (high - low) : 0.5;
-  // what is farther from zero is stronger
+  // values farther from zero are darker
   return map(high <= 0 && low < 0 ? 1 - t : t, start);
 }
 
@@ -140,7 +140,7 @@ ColourScale symmetric_scale(std::vector<double> values, double quantile) {
     const auto k = std::size_t(std::clamp(quantile, 0.0, 1.0) * double(values.size() - 1) + 0.5);
     std::nth_element(values.begin(), values.begin() + long(k), values.end());
     end = values[k];
-    // the largest value decides where it is not far off, or where most are zero
+    // the largest value is chosen if it is not much larger, or if most values are zero
     const double largest = *std::ranges::max_element(values);
     if (largest <= 1.3 * end || end < 1e-9) end = largest;
   }
@@ -152,7 +152,7 @@ bool is_dark(Colour paper) { return paper.a > 0.5f && contrast_to_white(paper) >
 
 Colour text_on_dark(Colour colour) {
   if (contrast_to_white(colour) < 3) return colour;
-  // towards white, and a saturated one less far so that its hue stays
+  // lighter, but a saturated colour less, so that its hue remains visible
   const float most = std::max({colour.r, colour.g, colour.b}),
               least = std::min({colour.r, colour.g, colour.b});
   const float part = most - least > 0.25f ? 0.5f : std::clamp(0.95f - most, 0.3f, 0.9f);
@@ -162,7 +162,7 @@ Colour text_on_dark(Colour colour) {
 
 Colour line_on_dark(Colour colour) {
   constexpr Colour grey{0.52f, 0.54f, 0.58f, 1};
-  // a colour is for something
+  // a colour that is not neutral has a meaning and is not changed
   const auto [least, most] = std::ranges::minmax({colour.r, colour.g, colour.b});
   const bool kept = contrast_to_white(colour) < 7 || most - least > 0.12f;
   return kept ? colour : Colour{grey.r, grey.g, grey.b, colour.a};

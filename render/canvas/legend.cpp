@@ -12,7 +12,7 @@ namespace {
 
 double bar_thickness(double font_size) { return 0.9 * font_size; }
 double tick_length(double font_size) { return 0.3 * font_size; }
-// of the column of words next to the ticks
+// width of the column of the quantity's name next to the ticks
 double words_column(const ColourBar& bar, double font_size) {
   return bar.words.empty() ? 0 : 1.35 * font_size;
 }
@@ -24,7 +24,7 @@ std::vector<Tick> bar_ticks(const ColourBar& bar, double height, double font_siz
   const int count = std::clamp(int(height / (2.2 * font_size)), fewest_ticks, most_ticks);
   std::vector<Tick> ticks = linear_ticks(scale.low, scale.high, count);
   if (!bar.ends) return ticks;
-  // ticks whose words would run into those of an end make room for it
+  // ticks whose labels would overlap that of an end are removed
   const double room = 1.3 * font_size / height * (scale.high - scale.low);
   for (const double end : {scale.low, scale.high}) {
     std::erase_if(ticks, [&](const Tick& tick) { return std::abs(tick.value - end) < room; });
@@ -36,7 +36,7 @@ std::vector<Tick> bar_ticks(const ColourBar& bar, double height, double font_siz
   return ticks;
 }
 
-// of all ticks that bars of this scale may have: taller ones have more, with more digits
+// width of the widest label on bars of any height, since taller ones have more ticks and digits
 double widest_label(const Canvas& canvas, const ColourBar& bar, const TextStyle& style) {
   const ColourScale& scale = bar.scale;
   double width = 0;
@@ -48,7 +48,8 @@ double widest_label(const Canvas& canvas, const ColourBar& bar, const TextStyle&
   return width;
 }
 
-// each colour reaches down to the end and the next covers it: no seam and no pixel half white
+// each colour is drawn down to the end of the bar and covered by the next, so that there are no
+// seams
 void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
   const int steps = 128;
   for (int k = 0; k < steps; ++k) {
@@ -58,11 +59,11 @@ void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
   }
 }
 
-// along the right edge, smaller where the bar is short; left out where there is no room
+// the quantity's name along the right edge, smaller if the bar is short; none if there is no room
 void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
   if (bar.words.empty() || box.width < colour_bar_width(canvas, bar, font_size) - 0.3 * font_size)
     return;
-  constexpr double smallest = 0.955;  // of a page's 7 points that is 6
+  constexpr double smallest = 0.955;  // with the 0.9 of its size, 7 points of a page become 6
   TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
   style.angle_deg = 90;
   const double fraction = 1.1 * box.height / std::max(1.0, canvas.measure(bar.words, style).width);
@@ -71,7 +72,8 @@ void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double fon
   canvas.text(bar.words, {box.right() - 0.55 * font_size, box.middle().y}, style);
 }
 
-/// What is `length` long in the middle of the box's foot, its label above; false: no room.
+/// Draws a bar or arrow of this length at the bottom of the box, in the middle, with its label
+/// above. Returns false if there is no room.
 bool draw_length(Canvas& canvas, const Box& box, double length, const std::string& label,
                  double font_size, const std::function<void(const Box&)>& draw) {
   const double thickness = 0.22 * font_size;
@@ -108,7 +110,7 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
   const double line = canvas.measure("0", style).height;
   canvas.text(bar.label, {box.x, box.y}, {.size = font_size, .align_y = AlignY::top});
 
-  // room for the label, half a line for the outermost ticks' labels, and the points
+  // room for the label, for half a line of the outermost ticks' labels, and for the pointed ends
   const double point = 0.7 * bar_thickness(font_size);
   const double top = box.y + 1.25 * line + std::max(line / 2, bar.beyond_high ? point : 0);
   const double bottom = box.bottom() - std::max(line / 2, bar.beyond_low ? point : 0);
@@ -178,7 +180,7 @@ void draw_arrow(Canvas& canvas, Point from, Point to, const Stroke& shaft) {
 
 void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,
                       double font_size) {
-  // in units of the font's size
+  // lengths over the font's size
   constexpr double dash = 1.6, thickness = 0.22, after_dash = 0.5, between = 1.6;
   const auto width_of = [&](double size) {
     double width = -between * size;

@@ -10,12 +10,12 @@
 namespace gridshell::render {
 namespace {
 
-// all in pixels of the panels
+// the layout of a figure; lengths are in pixels of the panels
 struct Grid {
   int columns, rows;
   double width, height;  // of a panel
   double em, gap, head, caption, margin, keys, foot, bar;
-  Point origin = {};  // upper left corner of the whole
+  Point origin = {};  // upper left corner of the figure
 
   double total_width() const { return 2 * margin + columns * width + (columns - 1) * gap + bar; }
   double total_height() const {
@@ -51,7 +51,7 @@ Grid make_grid(const PanelFigure& figure) {
   grid.rows = (count + grid.columns - 1) / grid.columns;
   grid.width = figure.panels[0].picture.width;
   grid.height = figure.panels[0].picture.height;
-  // 8.5 pt when the whole is printed width_mm wide; margins and bar add about a tenth
+  // the font has 8.5 pt if the figure is printed width_mm wide; margins and bar add about a tenth
   const double pixels_per_pt =
       1.1 * grid.columns * grid.width / (figure.print.width_mm / 25.4 * 72);
   grid.em = std::max(7.5, 8.5 * pixels_per_pt);
@@ -77,7 +77,7 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
   canvas.text(plain(figure.title), {grid.left(), grid.top() + grid.head / 2},
               canvas.fitted(plain(figure.title), room,
                             {.size = em, .bold = true, .align_y = AlignY::middle}));
-  // captions are set smaller where one is wider than its panel, all in one size
+  // all captions have one size, at which none is wider than its panel
   TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
   for (const Panel& panel : figure.panels)
     caption = canvas.fitted(panel.caption, grid.width + 0.5 * grid.gap, caption);
@@ -119,7 +119,7 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {
-    // at flat panels it extends along their captions, so long that its words fit
+    // next to flat panels the bar is also next to their captions, so that its name has room
     const double least = std::min(grid.total_height() - 2 * grid.margin - grid.head, 13 * em);
     const double height = std::clamp(16 * em, least, std::max(least, grid.rows * grid.height));
     draw_colour_bar(canvas,

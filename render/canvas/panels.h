@@ -1,5 +1,5 @@
-// Pictures side by side as one figure: letters, a caption under each, one scale bar, one colour bar
-// and one row of colour keys for all.
+// Figures of several pictures (panels): letters, a caption under each, and one scale bar, one
+// colour bar and one row of colour keys for all.
 #pragma once
 
 #include <filesystem>
@@ -14,18 +14,17 @@ namespace gridshell::render {
 
 /// Text in a panel, centred at a point.
 struct PanelLabel {
-  Point at;          ///< of the panel's width and height, 0 to 1
-  std::string text;  ///< marked text
+  Point at;          ///< fractions of the panel's width and height, 0 to 1
+  std::string text;  ///< with markup
   bool bold = false;
 };
 
 /// One picture of a figure; all of a figure have the same size.
 struct Panel {
   Image picture;
-  std::string letter;   ///< marked text, bold, at the upper left: "A"
-  std::string caption;  ///< marked text below, in lines: "*R*_{a} = 115.9 mm"
-  /// The panel as lines, that stay sharp however they are enlarged; empty: there is the picture
-  /// alone.
+  std::string letter;   ///< text with markup, bold, at the upper left: "A"
+  std::string caption;  ///< text with markup below, in lines: "*R*_{a} = 115.9 mm"
+  /// Draws the panel as lines, which are sharp at any size; empty: the panel is only a picture.
   std::function<void(Canvas&, const Box&)> lines = {};
   std::vector<PanelLabel> labels = {};
 };
@@ -34,27 +33,28 @@ struct PanelFigure {
   std::string title;  ///< plain text above all; empty: none
   std::vector<Panel> panels;
   int columns = 3;
-  bool as_lines = false;               ///< panels are their lines in the PNG too
+  bool as_lines = false;               ///< panels are drawn as lines in the PNG too
   double scale_bar_mm = 0;             ///< 0: none
   double pixels_per_mm = 0;            ///< of the panels' pictures
   std::optional<ArrowKey> arrow = {};  ///< next to the scale bar
   std::optional<ColourBar> colour_bar;
   std::vector<ColourKey> keys = {};  ///< in a row below all panels
   Colour background = white;
-  Print print{178, 0};  ///< text is 8.5 pt at that width; with a dpi the figure is that wide
+  /// the font has 8.5 pt at this width; a dpi above 0 makes the PNG that wide
+  Print print{178, 0};
 };
 
-/// The figure, panels pixel by pixel as they are. Errors: Fault::bad_input for no panel or panels
-/// of different size (naming both).
+/// The figure as a picture; without a dpi a pixel of a panel is a pixel of the figure. Errors:
+/// Fault::bad_input for no panel, empty panels or panels of different sizes.
 Result<Image> draw_panels(const PanelFigure& figure);
 
-/// Writes the figure as `file`, a PNG, and where its panels have lines as SVG and PDF too:
-/// `<stem>_lines` next to it, or `<stem>` of a figure that is lines.
+/// Writes the figure as the PNG `file`. If its panels have lines, it is also written as
+/// `<stem>_lines.png`, `.svg` and `.pdf`; a figure `as_lines` only as `<stem>.png`, `.svg` and
+/// `.pdf`. Errors: those of draw_panels(), io.
 Result<void> write_panels(const PanelFigure& figure, const std::filesystem::path& file, double dpi);
 
-/// Draws the figure on a canvas, as large as `box` allows, in its middle; its words are the
-/// canvas's text, and with `lines` its pictures are lines where there are some. Draws nothing where
-/// draw_panels() has an error.
+/// Draws the figure in the middle of `box` on a canvas, as large as fits; with `lines` panels are
+/// drawn as lines if they have them. Draws nothing if draw_panels() has an error.
 void draw_panels_on(Canvas& canvas, const Box& box, const PanelFigure& figure, bool lines = false);
 
 }  // namespace gridshell::render

@@ -82,7 +82,7 @@ void draw_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
 
 void draw_error_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
   const double cap = std::max(1.5, 0.4 * s.marker_size);
-  // over bars of the same colour an error bar must stay visible
+  // over bars of the same colour an error bar would not be visible
   const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour,
                       std::max(0.8, 0.17 * s.marker_size)};
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
@@ -167,7 +167,7 @@ Box note_box(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, con
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   PlotFrame frame = lay_out_plot(canvas, box, plot);
   if (frame.inside.empty()) return;
-  // the legend is in a free corner, else above the axes
+  // the legend is in a free corner, or above the axes if there is none
   const Legend legend(canvas, plot);
   LegendPosition corner = plot.legend;
   if (plot.legend == LegendPosition::automatic) corner = legend.free_corner(canvas, frame);
@@ -183,7 +183,7 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
     for (const Series& s : plot.series) draw_error_bars(canvas, frame, s);
   });
   draw_axes(canvas, box, plot, frame);
-  // a marker on the frame is shown whole
+  // the clip is larger than the frame so that markers on it are complete
   canvas.clipped(frame.inside.inset(-3), [&] {
     for (const Series& s : plot.series)
       if (s.kind == SeriesKind::points) draw_line_and_markers(canvas, frame, s);

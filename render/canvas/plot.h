@@ -1,5 +1,5 @@
-// A general plot over two axes: lines, markers, bars, error bars, shaded bands, reference lines,
-// notes and a legend, as a journal prints it.
+// Plots over two axes, as journals print them: lines, markers, bars, error bars, shaded bands,
+// reference lines, notes and a legend.
 #pragma once
 
 #include <algorithm>
@@ -15,28 +15,28 @@
 
 namespace gridshell::render {
 
-/// Ten colours that stay apart for colour-blind readers and in grey, in order of use (Paul Tol's
-/// "bright" and "high contrast" schemes).
+/// The colour of the index-th series: ten colours, repeated, that colour-blind readers and readers
+/// of grey copies can distinguish (Paul Tol's schemes "bright" and "high contrast").
 Colour series_colour(std::size_t index);
-/// Four signs, in the same order of use.
+/// The marker of the index-th series: four, repeated.
 Marker series_marker(std::size_t index);
 
 struct Axis {
-  std::string label;  ///< marked text with its unit: "*R*_{a} (mm)"
+  std::string label;  ///< text with markup and unit: "*R*_{a} (mm)"
   bool logarithmic = false;
-  std::optional<double> low = {}, high = {};  ///< otherwise from the data, with a margin
-  int ticks = 6;                              ///< about so many labels; 0: none, nor ticks
+  std::optional<double> low = {}, high = {};  ///< none: from the data, with a margin
+  int ticks = 6;                              ///< approximate number of labels; 0: no ticks
 };
 
 enum class SeriesKind { points, bars };
 
-/// One row of the legend. Points that are not finite (or not positive on a logarithmic axis) part
-/// the line.
+/// Points or bars of one look, with one row of the legend. Points that are not finite (or not
+/// positive on a logarithmic axis) interrupt the line.
 struct Series {
-  std::string name;  ///< marked text; empty: not in the legend
+  std::string name;  ///< text with markup; empty: not in the legend
   std::vector<double> x = {}, y = {};
   std::vector<double> y_error = {};                ///< half-lengths; empty: none
-  std::vector<std::array<double, 2>> x_span = {};  ///< ends of a bar, least and most; empty: none
+  std::vector<std::array<double, 2>> x_span = {};  ///< ends of horizontal error bars; empty: none
   Colour colour{0.27f, 0.47f, 0.67f, 1};
   SeriesKind kind = SeriesKind::points;
   double line_width = 1;          ///< in units of the canvas; 0: markers alone
@@ -50,23 +50,25 @@ struct Series {
     x.push_back(px);
     y.push_back(py);
   }
+  /// Interrupts the line.
   void part() { add(NAN, NAN); }
 };
 
-/// A line without marks, and marks without a line; points come by add().
+/// A series with a line only, and one with markers only; add() adds their points.
 Series line_series(const std::string& name, Colour colour, double width = 1,
                    const std::vector<double>& dash = {});
 Series mark_series(const std::string& name, Colour colour, Marker marker = Marker::circle,
                    double size = 4.5, bool hollow = false);
 
-/// The area between two curves, or, with one x to the next, a shaded region of the plot.
+/// The area between two curves over x, or a shaded region of the plot.
 struct Band {
-  std::string name;
-  std::vector<double> x = {}, low = {}, high = {};  ///< not finite ends reach to the frame
+  std::string name;  ///< text with markup; empty: not in the legend
+  /// an end that is not finite reaches to the frame
+  std::vector<double> x = {}, low = {}, high = {};
   Colour colour{0.5f, 0.5f, 0.5f, 0.2f};
 };
 
-/// The values of a member in the order in which they first come, of those that are selected.
+/// The different values of a member that `requested` accepts, in the order of their first rows.
 template <class Row, class Value, class Wanted>
 std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member,
                             const Wanted& requested) {
@@ -81,11 +83,11 @@ std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member) {
   return distinct(rows, member, [](const Value&) { return true; });
 }
 
-/// A line across the whole plot.
+/// A line across all of the plot.
 struct ReferenceLine {
   bool horizontal = true;
   double at = 0;
-  std::string label;  ///< written at its end; empty: none
+  std::string label;  ///< text at its end; empty: none
   Stroke stroke{{0.3f, 0.3f, 0.3f, 1}, 0.8, {3, 2}};
 };
 
@@ -109,7 +111,7 @@ enum class LegendPosition {
 };
 
 struct Plot {
-  std::string title;  ///< marked text; empty: none
+  std::string title;  ///< text with markup; empty: none
   Axis x, y;
   std::vector<Band> bands;  ///< drawn first
   std::vector<Series> series;
@@ -118,22 +120,23 @@ struct Plot {
   LegendPosition legend = LegendPosition::automatic;
   double font_size = 8.5;
 
-  /// On top of all others; left out where it has no point.
+  /// Adds a series on top of all others, unless it has no points.
   void add(Series one) {
     if (!one.x.empty()) series.push_back(std::move(one));
   }
 };
 
-/// The legend of a plot alone, in rows from the top of `box`: of several that share it.
+/// Draws the legend of a plot alone, in rows from the top of `box`, for several plots with one
+/// legend.
 void draw_legend(Canvas& canvas, const Box& box, const Plot& plot);
-/// The height that it takes in a box so wide.
+/// The height of this legend in a box of that width.
 double legend_height(const Plot& plot, double width);
 
-/// Draws the plot with its labels into `box`; nothing reaches outside.
+/// Draws the plot with its labels into `box`.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);
 
-/// A plot of its own as `<stem>.png`, `<stem>.svg` and `<stem>.pdf`, as wide as printed or 88 mm, a
-/// journal's column.
+/// Writes a plot as `<stem>.png`, `<stem>.svg` and `<stem>.pdf`, of the printed width or that of a
+/// journal's column, 88 mm. Errors: Fault::io with the path.
 Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot,
                         const Print& print = {}, double height_over_width = 62.0 / 88);
 

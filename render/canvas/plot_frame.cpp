@@ -46,7 +46,7 @@ Range data_range(const Plot& plot, bool of_x) {
   return range;
 }
 
-// the range of an axis: given ends are kept, others get 5 % of room
+// the range of an axis: its given ends, or those of the data with a margin of 5 %
 PlotAxis choose_range(const Plot& plot, bool of_x) {
   const Axis& axis = of_x ? plot.x : plot.y;
   Range range = data_range(plot, of_x);
@@ -81,7 +81,7 @@ double widest(const Canvas& canvas, const std::vector<Tick>& ticks, const TextSt
   return width;
 }
 
-// fewer ticks until the labels along x keep a distance
+// the ticks along x, so few that their labels do not touch
 std::vector<Tick> ticks_without_overlap(const Canvas& canvas, const PlotAxis& axis, int count,
                                         const TextStyle& style) {
   for (;; --count) {
@@ -98,7 +98,7 @@ std::vector<Tick> ticks_without_overlap(const Canvas& canvas, const PlotAxis& ax
   }
 }
 
-// does the drawing of a series pass through `box`? sampled along lines, bars and error bars
+// whether the drawing of a series passes through `box`, sampled along lines and error bars
 bool passes(const Series& s, const PlotFrame& frame, const Box& box) {
   const auto inside = [&](Point p) {
     return p.x >= box.x && p.x <= box.right() && p.y >= box.y && p.y <= box.bottom();
@@ -195,7 +195,7 @@ PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, d
                            : std::max(1.2 * line, canvas.measure(plot.y.label, style).height +
                                                       0.35 * plot.font_size);
   const double left = box.x + label + widest(canvas, frame.y_ticks, style) + gap;
-  // half of the last label may extend to the right of the frame
+  // half of the last label may be to the right of the frame
   const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
   frame.x.from = left;
   frame.x.to = right;
@@ -230,7 +230,7 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
     canvas.text(plot.x.label, {in.middle().x, box.bottom() - 0.12 * size},
                 {.size = size, .align_x = AlignX::centre, .align_y = AlignY::bottom});
   if (!plot.y.label.empty()) {
-    // one longer than the axis may continue past its ends, and is set smaller where that is short
+    // a label may be longer than its axis, but is set smaller if it is longer than the box
     TextStyle style =
         canvas.fitted(plot.y.label, box.height,
                       {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top});

@@ -9,7 +9,7 @@
 namespace gridshell::render {
 namespace {
 
-/// To a hundredth, without zeros that say nothing.
+/// A number rounded to a hundredth, without trailing zeros.
 std::string short_number(const std::string& text) {
   std::string number = fmt::format("{:.2f}", std::strtod(text.c_str(), nullptr));
   number.erase(number.find_last_not_of('0') + 1);
@@ -17,8 +17,8 @@ std::string short_number(const std::string& text) {
   return number == "-0" ? "0" : number;
 }
 
-/// A path's data. A letter stays where it differs from the one before, a line's after a move goes;
-/// so does the move to nowhere that follows a closed path.
+/// A path's data with shorter numbers. Commands that SVG implies are left out: one that repeats the
+/// command before it, L after M, and the last M after Z, which draws nothing.
 std::string short_data(const std::string& data) {
   std::string text, pending;
   char command = 0;
@@ -80,7 +80,7 @@ std::string short_style(const std::string& style) {
   return text;
 }
 
-/// The text between `before` and the next quote; empty: `before` is not there.
+/// The text between `before` and the next quote; empty if the line does not contain `before`.
 std::string quoted(const std::string& line, const std::string& before) {
   const auto from = line.find(before);
   if (from == line.npos) return "";
@@ -95,7 +95,8 @@ struct Path {
     return "<path style=\"" + style + "\" d=\"" + data + "\"" +
            (transform.empty() ? "" : " transform=\"" + transform + "\"") + "/>\n";
   }
-  /// Where they overlap, one over the other looks as both in one.
+  /// Whether both paths can be one: both are only strokes or only fills of one opaque style, which
+  /// look the same if they overlap in one path.
   bool takes(const Path& next) const {
     const bool one_ink =
         style.find("fill:none") != style.npos || style.find("stroke:none") != style.npos;

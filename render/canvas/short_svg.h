@@ -1,4 +1,4 @@
-// Cairo's SVG in fewer bytes.
+// Compression of Cairo's SVG.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace gridshell::render {
 
-/// The same picture: coordinates to a hundredth of a unit, colours as #rrggbb, without properties
-/// that have their default value; strokes, and fills, of one style that follow each other are one
-/// path. Only lines `<path style="…" d="…"[ transform="…"]/>` are changed.
+/// An SVG of the same picture with fewer bytes: coordinates to a hundredth of a unit, colours as
+/// #rrggbb, no properties with their default value; successive strokes of one style, or fills of
+/// one style, become one path. Only lines `<path style="…" d="…"[ transform="…"]/>` are changed.
 std::string short_svg(std::string_view svg);
 
 }  // namespace gridshell::render

@@ -72,7 +72,7 @@ struct Step {
   int parts;  // minor intervals within it
 };
 
-// 1, 2 or 5 times a power of ten, nearest above the wished size
+// the least of 1, 2 or 5 times a power of ten that is at least the requested size
 Step nice_step(double wished) {
   const double power = std::pow(10.0, std::floor(std::log10(wished)));
   const double ratio = wished / power;
@@ -82,7 +82,7 @@ Step nice_step(double wished) {
   return {10 * power, 5};
 }
 
-// multiples of `size` in [low, high], to within round-off
+// first and last multiples of `size` in [low, high], to within round-off
 std::pair<long, long> multiples(double low, double high, double size) {
   return {long(std::ceil(low / size - 1e-9)), long(std::floor(high / size + 1e-9))};
 }
@@ -185,7 +185,7 @@ std::vector<Tick> log_ticks(double low, double high, int count) {
       const bool wide = decades >= 2;
       const bool major = wide ? factor == 1 && (exponent - first) % every == 0
                               : factor == 1 || factor == 2 || factor == 5;
-      // between far powers of ten the skipped ones serve as minor ticks
+      // if only every n-th power of ten has a label, the others are the minor ticks
       if (every > 1 && factor != 1) continue;
       std::string label;
       if (major) label = wide ? power_of_ten(exponent) : scientific(value, 1);

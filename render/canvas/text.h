@@ -1,5 +1,5 @@
-// Marked text to Pango's attributes. Sub- and superscripts bear an explicit size and rise, in
-// units of the font: Pango's own <sub> scales its size by the canvas once more.
+// Text with markup, and numbers and ticks as text. Sub- and superscripts have an explicit size and
+// rise, in units of the font, since Pango's own <sub> would scale its size by the canvas once more.
 #pragma once
 
 #include <string>
@@ -10,30 +10,30 @@ namespace gridshell::render {
 /// A piece of text of one look.
 struct TextRun {
   std::string text;
-  int level = 0;  ///< -1 lowered, 0 on the line, 1 raised
+  int level = 0;  ///< -1: lowered; 0: on the line; 1: raised
   bool slanted = false;
 };
 
 /// Size of a lowered or raised piece, and its shift, over the font's size.
 inline constexpr double script_size = 0.72, lowered_by = 0.18, raised_by = 0.36;
 
-/// `_{...}`, `^{...}`, `*...*` and `\` before a character that is to be taken literally. An
-/// unpaired mark is taken literally.
+/// The pieces of a text with markup: `_{...}` (lowered), `^{...}` (raised), `*...*` (slanted), and
+/// `\` before a character that is not markup. An unpaired mark is an ordinary character.
 std::vector<TextRun> parse_marked(const std::string& marked);
 
-/// The letters alone.
+/// The text without its markup.
 std::string without_marks(const std::string& marked);
 
-/// A word of a file as a picture says it: with spaces.
+/// A name of a file with spaces instead of underscores.
 std::string spaced(std::string word);
 
-// Numbers and ticks on an axis, a colour bar, a caption. No number depends on the locale; minus is
-// the true minus sign (U+2212), powers of ten are raised.
+// Numbers on axes, colour bars and in captions. They do not depend on the locale; minus is the
+// minus sign U+2212, and powers of ten are raised.
 
-/// A tick; minor ones bear no label.
+/// A tick of an axis; minor ones have no label.
 struct Tick {
   double value = 0;
-  std::string label;  ///< marked text (render/canvas/text.h)
+  std::string label;  ///< text with markup
   bool major = true;
 };
 
@@ -47,11 +47,11 @@ std::string scientific(double value, int digits);
 /// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is >= value (> 0).
 double nice_ceiling(double value);
 
-/// "45.7 mm"; from a metre on "1.756 m".
+/// A length: "45.7 mm", from 1000 mm "1.756 m".
 std::string length_text(double mm);
 
-/// The length of a scale bar next to a thing of half size `size_mm`: the given one, or, where that
-/// would be a dot or longer than the thing, a round length; 0 stays 0.
+/// The length of a scale bar for an object of half size `size_mm`: the given length or, if that is
+/// much shorter or longer than the object, a round one. 0 remains 0.
 inline double scale_bar_beside(double wanted_mm, double size_mm) {
   const bool fits = wanted_mm >= 0.03 * size_mm && wanted_mm <= 2 * size_mm;
   return wanted_mm <= 0 || fits ? wanted_mm : nice_ceiling(0.2 * size_mm);
@@ -61,9 +61,9 @@ inline double scale_bar_beside(double wanted_mm, double size_mm) {
 /// ones and never fewer than two where that is possible, with minor ticks between.
 std::vector<Tick> linear_ticks(double low, double high, int count);
 
-/// Ticks within [low, high], 0 < low < high: a label at each power of ten (or each n-th, to keep
-/// about `count`), minor ticks at 2 … 9; where less than two powers of ten are within, labels at
-/// 1, 2, 5, and linear ticks where even those are too few.
+/// Ticks within [low, high], 0 < low < high, with about `count` labels: one at each power of ten or
+/// each n-th, and minor ticks at 2 … 9. If [low, high] contains less than two powers of ten, labels
+/// are at 1, 2 and 5; if even those are less than two, ticks are linear.
 std::vector<Tick> log_ticks(double low, double high, int count);
 
 }  // namespace gridshell::render

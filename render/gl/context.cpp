@@ -69,7 +69,7 @@ class EglContext final : public Context {
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  /// False when the display gives no OpenGL 3.3 core context without a surface.
+  /// Returns false if the display has no OpenGL 3.3 core context without a surface.
   bool make_current() {
     const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                                     EGL_OPENGL_BIT, EGL_NONE};

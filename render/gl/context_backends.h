@@ -1,4 +1,4 @@
-// A shared library opened while the program runs, so that the program starts without it.
+// Shared libraries opened while the program runs, and the contexts that come from them.
 #pragma once
 
 #include <initializer_list>
@@ -8,13 +8,13 @@
 
 namespace gridshell::render {
 
-/// Stays open to the end of the process: drivers keep threads and exit handlers of their own.
+/// A shared library. It is never closed, since drivers have threads and exit handlers of their own.
 class SharedLibrary {
  public:
-  /// The first of `names` that opens. Errors: Fault::io with what the loader said of each.
+  /// Opens the first of `names` that exists. Errors: Fault::io with the loader's message for each.
   static Result<SharedLibrary> open(std::initializer_list<const char*> names);
 
-  /// Sets `function` to that of this name. False where the library lacks it.
+  /// Sets `function` to the library's function `name`; returns false if there is none.
   template <class F>
   bool load(F& function, const char* name) const {
     function = reinterpret_cast<F>(symbol(name));
@@ -28,7 +28,8 @@ class SharedLibrary {
   void* handle_;
 };
 
-// A struct of the functions that a list X(member, function) names, to be loaded from a library.
+// GRIDSHELL_FUNCTIONS(Name, LIST) defines a struct of function pointers that load() takes from a
+// library; LIST is a macro that lists them as X(member, function).
 // NOLINTBEGIN: names cannot be in parentheses
 #define GRIDSHELL_MEMBER(member, function) decltype(&function) member = nullptr;
 #define GRIDSHELL_LOADED(member, function) &&library.load(member, #function)
@@ -39,12 +40,12 @@ class SharedLibrary {
   }
 // NOLINTEND
 
-// One function for each kind of context; Context::create chooses among them.
+// One function for each kind of context; Context::create chooses among them. Errors: Fault::io.
 
-/// Mesa's off-screen software rasteriser; asks for OpenGL 3.3 core.
+/// An OpenGL 3.3 core context of Mesa's off-screen software rasteriser.
 Result<std::unique_ptr<Context>> create_osmesa_context();
 
-/// EGL without a display (EGL_MESA_platform_surfaceless); asks for OpenGL 3.3 core.
+/// An OpenGL 3.3 core context of EGL without a display (EGL_MESA_platform_surfaceless).
 Result<std::unique_ptr<Context>> create_egl_context();
 
 /// A hidden GLFW window; needs a display.

@@ -1,4 +1,5 @@
-# Writes OUTPUT, a C++ file that holds every shader of FOLDER by name (render/gl/opengl.h).
+# Writes OUTPUT, a C++ file with the function shader_text() (render/gl/opengl.h), which returns the
+# shaders of FOLDER by name.
 file(GLOB FILES ${FOLDER}/*.vert ${FOLDER}/*.frag ${FOLDER}/*.glsl)
 list(SORT FILES)
 set(ENTRIES "")

@@ -13,11 +13,14 @@
 namespace gridshell::render {
 namespace {
 
-constexpr double ground_from = 1.2, ground_to = 4;  // where it pales, in half extents of the view
-constexpr double penumbra_least = 0.8;              // mm, where rod and ground touch
-constexpr float roof = 0.35f;  // of the sky's light that a closed roof takes from the ground
+// distances from the middle at which the ground begins and ends to fade, in half extents of the
+// view
+constexpr double ground_from = 1.2, ground_to = 4;
+constexpr double penumbra_least = 0.8;  // width of a shadow's edge where rod and ground touch, mm
+constexpr float roof = 0.35f;           // fraction of the sky's light that a closed roof blocks
 
-/// Takes (x, y, 1) of clip coordinates to the point (X, Y, 1) of the plane z, over its depth w.
+/// Matrix (upper left 3 x 3) from clip coordinates (x, y, 1) to the point (X, Y, 1) of the plane z,
+/// divided by its depth w.
 Eigen::Matrix4f to_ground(const Eigen::Matrix4d& matrix, double z) {
   Eigen::Matrix3d plane;
   for (int k = 0; k < 3; ++k) {
@@ -29,8 +32,8 @@ Eigen::Matrix4f to_ground(const Eigen::Matrix4d& matrix, double z) {
   return result;
 }
 
-/// Takes (u, v, 1, 0), positions on the shadow map from 0 to 1, to the plane z that the light falls
-/// on.
+/// Matrix from (u, v, 1, 0), with coordinates u and v on the shadow map from 0 to 1, to the points
+/// of the plane z that the light reaches through them.
 Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
   const Eigen::Matrix4d m = light_matrix.cast<double>();
   const Eigen::Matrix2d back = m.topLeftCorner<2, 2>().inverse();
@@ -41,16 +44,16 @@ Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
   return result;
 }
 
-/// Texels of the map of light along a side: finer than the narrowest penumbra, and than the pixels;
-/// the same in all frames of a movie.
+/// Number of texels along a side of the map of light: finer than the narrowest penumbra and than
+/// the pixels, and equal in all frames of a movie.
 int texels_for(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 512, 1024); }
 
-/// Nothing is blended, hidden or left out.
+/// Disables blending, depth test and culling, so that every pixel is overwritten.
 void fill_only(const Gl& gl) {
   for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE}) gl.Disable(state);
 }
 
-/// The light of level ground in the open.
+/// The light on level ground in the open.
 float open_light(const Lighting& light) {
   return float(light.key * light.direction.z() + light.sky);
 }
@@ -116,7 +119,7 @@ void Ground::draw_open(const Program& program, const RenderJob& shot, const Eige
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The part of the ground that the shadow map contains.
+/// Draws the part of the ground that the shadow map contains with `program`.
 void Ground::set_shadow_uniforms(const Program& program, const RenderJob& shot,
                                  const Eigen::Matrix4d& matrix, const ShadowMap& shadow) const {
   program.set("view_projection", Eigen::Matrix4f(matrix.cast<float>()));

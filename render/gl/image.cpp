@@ -14,7 +14,7 @@
 namespace gridshell::render {
 namespace {
 
-// libpng reports an error by a call that must not return; it is caught where setjmp was called
+// libpng calls on_error(), which must not return: it stores the message and jumps to the setjmp()
 struct Failure {
   char message[160] = "";
 };
@@ -25,7 +25,7 @@ void on_error(png_structp png, png_const_charp message) {
   png_longjmp(png, 1);
 }
 
-// 16384 x 16384, the largest that is written, and a text or profile in it
+// the largest picture that is read (16384 x 16384), and the largest text or profile in it (bytes)
 constexpr std::size_t largest_pixels = std::size_t(1) << 28, largest_chunk = 8000000;
 
 void on_warning(png_structp, png_const_charp) {}
@@ -71,7 +71,7 @@ std::string density(double dpi) {
   return data + char(PNG_RESOLUTION_METER);
 }
 
-// every row after the filter it went through: none, after which it compresses as well as any
+// the rows of a PNG, each after the number of its filter: none, which compresses as well as others
 template <int channels>
 std::vector<std::uint8_t> rows_of(const Image& image) {
   const std::size_t width = std::size_t(image.width);
@@ -90,7 +90,7 @@ struct Free {
   void operator()(libdeflate_compressor* it) const { libdeflate_free_compressor(it); }
 };
 
-// `image` and `rows` are the caller's; a longjmp must not skip their destructors
+// `image` and `rows` belong to the caller, so that a longjmp does not skip their destructors
 bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& rows,
                  Failure& failure) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
@@ -110,7 +110,7 @@ bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& 
                   largest_pixels / 1000000);
     png_longjmp(png, 1);
   }
-  // palettes and grey to RGB, 1-4 bits up and 16 bits down to 8, no alpha to opaque
+  // any PNG becomes 8-bit RGBA: palettes and grey are expanded, a missing alpha is opaque
   png_set_expand(png);
   png_set_scale_16(png);
   png_set_gray_to_rgb(png);
@@ -148,7 +148,7 @@ void paint(Image& image, int x, int y, std::array<std::uint8_t, 3> rgb) {
   p[3] = 255;
 }
 
-// a frame around the block, `thickness` pixels wide, outside of it so that the block stays visible
+// draws a frame of `thickness` pixels around the block, outside, so that the block remains visible
 void outline(Image& image, const Comparison& block, int thickness) {
   const int x0 = block.x - thickness, x1 = block.x + block.width + thickness;
   const int y0 = block.y - thickness, y1 = block.y + block.height + thickness;
@@ -165,11 +165,11 @@ Result<std::string> encode_png(const Image& image, double dpi) {
     return invalid("a picture of {} x {} pixels cannot be a PNG", image.width, image.height);
   const bool with_alpha = !opaque(image);
   const std::vector<std::uint8_t> rows = with_alpha ? rows_of<4>(image) : rows_of<3>(image);
-  // a third of zlib's time at the same size
+  // libdeflate takes a third of zlib's time for the same size
   const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(1));
   if (!compressor) return fail(Fault::io, "cannot encode a PNG: out of memory");
   const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), rows.size());
-  // not filled: few pictures need all of it
+  // without initialisation, since few pictures need all of it
   const std::unique_ptr<char[]> packed(new char[room]);
   const std::size_t size =
       libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), packed.get(), room);

@@ -1,4 +1,4 @@
-// A picture in memory: 8-bit RGBA, rows from the top, not premultiplied.
+// Pictures in memory, colours, PNG files, and the comparison of two pictures.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +13,7 @@
 
 namespace gridshell::render {
 
+/// A picture of 8-bit sRGB colours with alpha, rows from the top, not premultiplied.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  ///< 4 * width * height
@@ -32,57 +33,54 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// 0xRRGGBB.
+/// The opaque colour 0xRRGGBB.
 constexpr Colour hex_colour(long rgb) {
   return {float(rgb >> 16 & 255) / 255, float(rgb >> 8 & 255) / 255, float(rgb & 255) / 255, 1};
 }
 
-// sRGB to linear light, where colours are mixed and shaded [IEC 61966-2-1].
+// Colours are mixed and shaded in linear light [IEC 61966-2-1].
 
-/// One sRGB component in [0, 1] to linear light.
+/// An sRGB component in [0, 1] in linear light.
 inline float to_linear(float c) {
   return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
 }
 
-/// The inverse of it.
+/// A component in linear light, in [0, 1], as sRGB.
 inline float to_srgb(float v) {
   return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
 }
 
-/// Linear r, g, b and the unchanged alpha.
+/// r, g and b in linear light, and the unchanged alpha.
 inline Eigen::Vector4f to_linear(const Colour& c) {
   return {to_linear(c.r), to_linear(c.g), to_linear(c.b), c.a};
 }
 
-// PNG files to pictures and back.
-
-/// The picture as the bytes of an 8-bit PNG: RGB when every pixel is opaque, else RGBA. As fast as
-/// keeps rendered frames small.
-/// Errors: Fault::bad_input for an empty picture.
-/// `dpi` above 0 is written into the file: pixels an inch as printed.
+/// The picture as the bytes of an 8-bit PNG: RGB if every pixel is opaque, else RGBA. A `dpi` above
+/// 0 is written into the file: pixels per inch as printed. Errors: Fault::bad_input for an empty
+/// picture; Fault::io without memory.
 Result<std::string> encode_png(const Image& image, double dpi = 0);
 
-/// Writes a PNG that is whole or absent. Errors: Fault::io naming the path and what the system
-/// said; those of encode_png.
+/// Writes a PNG file, or leaves none if it fails. Errors: Fault::io with the path and the system's
+/// message; those of encode_png.
 Result<void> write_png(const Image& image, const std::filesystem::path& path, double dpi = 0);
 
 /// The picture in the bytes of a PNG of any colour type and bit depth, as 8-bit RGBA. Errors:
-/// Fault::bad_input, with `name`, when it is no PNG or is damaged.
+/// Fault::bad_input, with `name`, if it is no PNG, is damaged or has more than 2^28 pixels.
 Result<Image> decode_png(std::string_view bytes, const std::string& name);
 
-/// Reads a PNG from a file. Errors: Fault::io naming the path and why it cannot be opened;
-/// Fault::bad_input as above.
+/// Reads a PNG from a file. Errors: Fault::io with the path and why it cannot be read; those of
+/// decode_png.
 Result<Image> read_png(const std::filesystem::path& path);
 
-// Are two pictures the same to the eye? The worst 8 x 8 block decides, so that a lost rod counts
-// and one grey level of noise over the whole picture does not: a mean over the picture misses the
-// first.
+// Comparison of two pictures as the eye sees them. The 8 x 8 block with the largest difference
+// decides, so that a missing rod counts, which a mean over the picture would miss, and noise of one
+// grey level everywhere does not.
 
-/// Between harmless differences of another CPU (up to 3.6) and a broken picture (from 9.3).
+/// The threshold is between differences by another CPU (up to 3.6) and broken pictures (from 9.3).
 inline constexpr double default_difference_threshold = 4;
 
-/// Blocks are `block_size` pixels wide and high and `block_step` apart from start to start; the
-/// last ones of a row or column are moved back inside the picture.
+/// Blocks are `block_size` pixels wide and high and begin every `block_step` pixels; the last ones
+/// of a row or column are moved back inside the picture.
 inline constexpr int block_size = 8, block_step = 4;
 
 /// The block in which two pictures differ most.
@@ -96,12 +94,12 @@ struct Comparison {
   }
 };
 
-/// Compares pixel by pixel, alpha included. Errors: Fault::bad_input naming both sizes when they
-/// differ, or when a picture is empty.
+/// The block in which a and b differ most, pixel by pixel, including alpha. Errors:
+/// Fault::bad_input if their sizes differ or they are empty.
 Result<Comparison> compare(const Image& a, const Image& b);
 
-/// Where a and b (of one size) differ: differences times `gain` in red over a pale grey picture of
-/// a, the worst block outlined.
+/// A picture of the differences of a and b, which are of one size: differences times `gain` in red
+/// over a pale grey picture of a, with the worst block outlined.
 Image difference_picture(const Image& a, const Image& b, const Comparison& worst, double gain = 8);
 
 }  // namespace gridshell::render

@@ -35,7 +35,7 @@ std::vector<Eigen::Vector3f> lath_normals(const Drawing& drawing, std::size_t ro
   for (const int node : nodes) points.push_back(drawing.nodes.col(node).cast<float>());
   std::vector<Eigen::Vector3f> normals(nodes.size(), Eigen::Vector3f::UnitZ());
   const auto along = tangents(points, false);
-  std::size_t known = nodes.size();  // the joint before
+  std::size_t known = nodes.size();  // index of the last joint; nodes.size(): none yet
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     Eigen::Vector3f normal = shell_normals[std::size_t(nodes[k])];
     if (normal.norm() < least) continue;
@@ -66,7 +66,7 @@ float apparent_width(const Eigen::Vector2f& size, const Eigen::Vector3f& tangent
 std::vector<std::uint32_t> add_lath(Mesh& mesh, const LathPiece& piece, const LathView& view) {
   const auto along = tangents(piece.points, false);
   std::vector<std::uint32_t> indices;
-  // corners about each point, and which of them a face joins
+  // corners 0 to 3 around point k: upper right, upper left, lower left, lower right
   const auto corner = [&](std::size_t k, int c) -> Eigen::Vector3f {
     const Eigen::Vector3f across = along[k].cross(piece.normals[k]);
     const float right = c == 0 || c == 3 ? 0.5f : -0.5f, up = c < 2 ? 0.5f : -0.5f;
@@ -98,7 +98,7 @@ std::vector<std::uint32_t> add_lath(Mesh& mesh, const LathPiece& piece, const La
   for (std::size_t k = 0; k < last; ++k)
     for (int c = 0; c < 4; ++c) {
       const int next = (c + 1) % 4;
-      // faces in turn: up, left, down, right
+      // face c is between corners c and c + 1: up, left, down, right
       const Eigen::Vector3f normal = (piece.normals[k] + piece.normals[k + 1]).normalized();
       const Eigen::Vector3f across = (along[k] + along[k + 1]).normalized().cross(normal);
       const Eigen::Vector3f out = c == 0 ? normal : c == 2 ? -normal : c == 1 ? -across : across;

@@ -1,4 +1,4 @@
-// Laths as boxes along their frames: the thickness along the shell's normal at the joints.
+// Laths as boxes along their rods, with the thickness along the shell's normal at the joints.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,37 +12,39 @@
 
 namespace gridshell::render {
 
-/// For every node the cross product of its rods' tangents: the shell's normal at a joint, next to
-/// nothing elsewhere.
+/// For every node the cross product of the unit tangents of its rods: along the shell's normal at a
+/// joint, near zero at nodes of one rod.
 std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing);
 
-/// Width and thickness of a rod, mm; 0 of one that is round or drawn as if it were.
+/// Width and thickness of a rod, mm; zero for a rod that is drawn round.
 Eigen::Vector2f lath_size(const Drawing& drawing, std::size_t rod);
 
-/// Unit normals at the points of a rod, at right angles to it: those of its joints, and between
-/// them in proportion. Of a rod without joints: as near to z as may be.
+/// Unit normals at the points of a rod, at right angles to it: the shell's normals at its joints,
+/// interpolated linearly between them; those nearest to z for a rod without joints.
 std::vector<Eigen::Vector3f> lath_normals(const Drawing& drawing, std::size_t rod,
                                           const std::vector<Eigen::Vector3f>& shell_normals);
 
-/// How wide a box appears from `sight` (a unit vector) across its tangent, mm.
+/// Width (mm) that a box of width and thickness `size` appears to have across its tangent, seen
+/// from the direction `sight` (a unit vector).
 float apparent_width(const Eigen::Vector2f& size, const Eigen::Vector3f& tangent,
                      const Eigen::Vector3f& normal, const Eigen::Vector3f& sight);
 
 /// A piece of a lath, from joint to joint.
 struct LathPiece {
   std::span<const Eigen::Vector3f> points, normals;
-  std::span<const Eigen::Vector4f> colours;  ///< linear, one a point
+  std::span<const Eigen::Vector4f> colours;  ///< linear, one per point
   Eigen::Vector2f size;                      ///< width and thickness, mm
 };
 
-/// What its faces are seen by: the eye, and the light; without a light they have their own colours.
+/// Eye and light by which the faces of laths are drawn.
 struct LathView {
   Eigen::Vector3f eye;  ///< the camera, or the direction towards it
   bool orthographic = false;
-  const Lighting* light = nullptr;
+  const Lighting* light = nullptr;  ///< null: faces have their own colours
 };
 
-/// Adds the faces that are turned to the eye, those at both ends too, and returns their triangles.
+/// Adds the faces that are turned to the eye, including those at the ends, and returns their
+/// triangles.
 std::vector<std::uint32_t> add_lath(Mesh& mesh, const LathPiece& piece, const LathView& view);
 
 }  // namespace gridshell::render

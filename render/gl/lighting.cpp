@@ -12,30 +12,30 @@ namespace gridshell::render {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double key_azimuth = -70 * pi / 180;  // from the camera's, to its left
+constexpr double key_azimuth = -70 * pi / 180;  // relative to the camera's, to its left
 constexpr double key_elevation = 60 * pi / 180;
 constexpr double key_disc = 5 * pi / 180;  // radius of the light's disc
-constexpr double key_spread = 0.04;        // narrower than the disc's: shadows of thin rods stay
-constexpr double key_fraction = 0.55;      // of the light on ground that faces up
-constexpr double ground_fraction = 0.5;    // of the sky's light returned by the ground
+constexpr double key_spread = 0.04;  // less than the disc's, so that thin rods cast visible shadows
+constexpr double key_fraction = 0.55;    // of the light on level ground
+constexpr double ground_fraction = 0.5;  // of the sky's light that the ground reflects
 
 Eigen::Vector3d key_direction(const Camera& camera) {
-  // a camera straight above has +y upwards in the picture: its light is that of a camera in the
-  // south
+  // a camera straight above has +y upwards in the picture, so its light is that of a camera in the
+  // direction of -y
   const bool straight = std::abs(camera.elevation_deg) > 90 - 1e-6;
   const double azimuth = (straight ? -pi / 2 : camera.azimuth_deg * pi / 180) + key_azimuth;
   return {std::cos(key_elevation) * std::cos(azimuth), std::cos(key_elevation) * std::sin(azimuth),
           std::sin(key_elevation)};
 }
 
-/// Point i of the two-dimensional sequence with the plastic number's powers as steps, from `start`.
+/// Point i of the two-dimensional sequence whose steps are 1/p and 1/p^2, p the plastic number.
 Eigen::Vector2d sequence(int i, double start) {
   constexpr double plastic = 1.32471795724474602596;
   const double x = start + (i + 1) / plastic, y = start + (i + 1) / (plastic * plastic);
   return {x - std::floor(x), y - std::floor(y)};
 }
 
-/// A direction on the disc of angular radius `key_disc` about `axis`.
+/// A direction on the disc of angular radius `key_disc` about `axis`, uniform for p in [0, 1]^2.
 Eigen::Vector3d on_disc(const Eigen::Vector3d& axis, const Eigen::Vector2d& p) {
   const Eigen::Vector3d across = axis.unitOrthogonal();
   const double r = std::tan(key_disc) * std::sqrt(p.x()), angle = 2 * pi * p.y();
@@ -43,15 +43,15 @@ Eigen::Vector3d on_disc(const Eigen::Vector3d& axis, const Eigen::Vector2d& p) {
       .normalized();
 }
 
-/// A direction of the upper half sphere, evenly distributed; not near the horizon, where shadows
-/// are endless.
+/// A direction of the upper half sphere, uniform for p in [0, 1]^2, but not near the horizon, where
+/// shadows are very long.
 Eigen::Vector3d on_sky(const Eigen::Vector2d& p) {
   const double z = 0.08 + 0.92 * p.x(), r = std::sqrt(1 - z * z), angle = 2 * pi * p.y();
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-/// Scales the key weights of passes [first, last) so that level ground receives `fraction` of the
-/// mean over all passes.
+/// Sets the key light of passes [first, last) so that in the mean of all passes level ground
+/// receives `fraction` from them.
 void normalise(std::vector<Lighting>& passes, int first, int last, double fraction) {
   double sum = 0;
   for (int i = first; i < last; ++i) sum += passes[i].direction.z();
@@ -73,7 +73,7 @@ std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
     const Eigen::Vector2d p = sequence(i, 0.5);
     result[i].direction = i < keys ? on_disc(key, p) : on_sky(p);
     result[i].bounce = bounce;
-    // a direction of the sky represents a part of it: a shadow blurred as wide is not seen singly
+    // a direction represents a part of the sky, and its shadow is blurred as wide as this part
     result[i].spread = i < keys ? 0.01 : std::sqrt(2 * pi / (passes - keys));
     result[i].pixel_shift = sequence(i, 0.25) - Eigen::Vector2d::Constant(0.5);
   }
@@ -171,7 +171,7 @@ void ShadowMap::blur() {
   halve_.set("finer", 0);
   for (int level = 1; level < levels; ++level) {
     const int side = texels_ >> level;
-    // the shader reads this one level and writes the next
+    // the shader reads only this level and writes the next
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
     gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, cover(), level);

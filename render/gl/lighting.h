@@ -1,6 +1,6 @@
-// A key light (a small disc in the sky, to the left of the camera), an even sky and the light that
-// the ground returns. A surface that faces up, unshadowed, receives exactly 1: it shows the colour
-// it was given.
+// Light and shadows. The light is a key light (a small disc in the sky, to the left of the camera),
+// a uniform sky and the light that the ground reflects. An unshadowed surface that faces up
+// receives exactly 1, and so shows its own colour.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,35 +13,37 @@
 
 namespace gridshell::render {
 
-/// What lights one pass. Irradiance on a surface of normal n:
+/// The light of one pass. Irradiance on a surface of normal n:
 /// key max(n.l, 0) + sky (1 + n_z) / 2 + bounce (1 - n_z) / 2.
 struct Lighting {
   Eigen::Vector3d direction;  ///< unit vector l towards the shadow-casting light
   double key = 0, sky = 0, bounce = 0;
-  double spread = 0;  ///< width of a shadow's edge over the height of what casts it
+  double spread = 0;  ///< width of a shadow's edge over the height of the part that casts it
   Eigen::Vector2d pixel_shift = Eigen::Vector2d::Zero();  ///< in samples, within +-1/2
 };
 
-/// One pass has the sky without shadow. More passes sample the light's disc and the sky (even over
-/// the half sphere) by a fixed low-discrepancy sequence [Roberts 2018], each pass with one
-/// direction that casts a shadow; their mean tends to the same light, with the sky shadowed too.
+/// The light of every pass. A single pass has a sky that casts no shadow. More passes sample the
+/// key light's disc and the sky (uniform over the half sphere) by a fixed low-discrepancy sequence
+/// [Roberts 2018], each pass with one direction that casts a shadow. Their mean tends to the same
+/// light, but the sky casts shadows too.
 std::vector<Lighting> lighting_passes(const Camera& camera, int passes);
 
-// What the light sees of a scene: the depth of the first solid, for shadows on the shell, and how
-// much light is blocked at which height above the ground, for the ground's soft shadow.
-
+/// A scene seen from the light: the depth of the first solid, for shadows on the shell, and the
+/// fraction of light that is blocked (cover) with its height above the ground, for the soft shadow
+/// on the ground.
 class ShadowMap {
  public:
-  static constexpr int levels = 7;  ///< of the cover, each half the size before
+  static constexpr int levels = 7;  ///< of the cover, each half the size of the one before
 
   static Result<ShadowMap> create(const Gl& gl);
 
-  /// Along a side, for a picture so many pixels high: the same in all frames of a movie.
+  /// Number of texels along a side for a picture of this height (pixels), equal for all frames of a
+  /// movie.
   static int texels_for(int height) { return height > 800 ? 1024 : 512; }
 
   /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` contain
-  /// the scene's meshes, `ribbons` with its casters as list 1. A sheet blocks the part of the light
-  /// that its alpha would.
+  /// the scene's meshes, `ribbons` with its casters as list 1. A sheet blocks a fraction of the
+  /// light in proportion to its alpha.
   Result<void> render(const Scene& scene, const VertexStore& ribbons, const VertexStore& sheets,
                       const Eigen::Vector3d& light, double ground_z, int texels);
 

@@ -15,7 +15,7 @@ std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, b
     result[next] += direction;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    // an edge without length, or one that reverses, keeps the direction before it
+    // after an edge without length or a reversal the direction of the point before is used
     if (result[i].norm() < 1e-6f) result[i] = i ? result[i - 1] : Eigen::Vector3f::UnitX();
     result[i].normalize();
   }
@@ -37,7 +37,7 @@ PackedColour pack(const Eigen::Vector4f& linear) {
 std::uint32_t Mesh::add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
                         const PackedColour& colour) {
   Vertex v{position, {}, colour};
-  // towards zero: rounding would cost a call for each of a hundred thousand
+  // truncated, since rounding would cost a call for each of a hundred thousand vertices
   for (int k = 0; k < 3; ++k) v.normal[k] = std::int16_t(32767 * std::clamp(normal[k], -1.f, 1.f));
   vertices.push_back(v);
   return std::uint32_t(vertices.size() - 1);
@@ -53,9 +53,9 @@ std::int16_t share_of_widest(float radius) {
   return std::int16_t(std::clamp(std::round(32767 * radius / widest_radius_mm), 1.f, 32767.f));
 }
 
-constexpr int most_steps = 4;  // along a cell's side
+constexpr int most_steps = 4;  // pieces along a cell's side
 
-/// The position of a node: `at` along rod `rod`.
+/// The position of a node: index `at` in rod `rod`; -1: none.
 struct Place {
   int rod = -1, at = 0;
 };
@@ -71,7 +71,7 @@ std::vector<std::array<Place, 2>> places(const record::Layout& layout, std::size
   return result;
 }
 
-/// The nodes from `a` to `b` along the rod they share; the two alone when they share none.
+/// The nodes from `a` to `b` along their common rod; `a` and `b` alone if there is none.
 std::vector<int> side(const record::Layout& layout, const std::vector<std::array<Place, 2>>& where,
                       int a, int b) {
   for (const Place& from : where[a])
@@ -86,7 +86,7 @@ std::vector<int> side(const record::Layout& layout, const std::vector<std::array
   return {a, b};
 }
 
-/// `steps` + 1 points along a side, evenly in its index.
+/// `steps` + 1 points along a side, at equal steps of the nodes' index.
 std::vector<Eigen::Vector3f> resample(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side,
                                       int steps) {
   std::vector<Eigen::Vector3f> result(steps + 1);
@@ -109,8 +109,8 @@ struct Patch {
   const Eigen::Vector3f& at(int u, int v) const { return points[v * (steps + 1) + u]; }
 };
 
-/// Whether the nodes are as near to the straight line between the first and the last, which they
-/// divide evenly.
+/// Whether the nodes are within the tolerance of points that divide the chord from the first to the
+/// last into equal parts.
 bool straight(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side, float tolerance) {
   const Eigen::Vector3d from = nodes.col(side.front()), to = nodes.col(side.back());
   const double last = double(side.size() - 1);
@@ -120,7 +120,8 @@ bool straight(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side, float
   return true;
 }
 
-/// Its four corners alone where no side is further from its chord than half the tolerance.
+/// The patch of a cell; its four corners alone if no side is further from its chord than half the
+/// tolerance.
 Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
                   const std::vector<std::array<Place, 2>>& where, const record::Cell& cell,
                   float tolerance) {
@@ -154,7 +155,7 @@ Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
   return patch;
 }
 
-/// How far the points that a grid of every `stride`-th leaves out lie off it, at most.
+/// Largest distance of the patch's points from the coarser grid of every `stride`-th point.
 float left_out(const Patch& patch, int stride) {
   float most = 0;
   for (int v = 0; v <= patch.steps; ++v)
@@ -169,7 +170,7 @@ float left_out(const Patch& patch, int stride) {
   return most;
 }
 
-/// The coarsest grid within the tolerance.
+/// The stride of the coarsest grid within the tolerance.
 int stride_of(const Patch& patch, float tolerance) {
   for (int stride = patch.steps; stride > 1; --stride)
     if (patch.steps % stride == 0 && left_out(patch, stride) <= tolerance) return stride;
@@ -212,7 +213,7 @@ std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon) {
 int longest_straight_piece(const Ribbon& ribbon, int from, int last, float tolerance_mm) {
   constexpr float colour_step = 0.004f, least_cosine = 0.98f;
   const auto count = int(ribbon.points.size());
-  // the strip is as wide as its ends are square to it: at a corner it stays short
+  // a strip that is oblique to the tangents at its ends would be too narrow, so it ends at corners
   const auto goes_along = [&](int edge, const Eigen::Vector3f& along) {
     if (!ribbon.closed && (edge < 0 || edge + 1 >= count)) return true;
     const Eigen::Vector3f step =
@@ -252,7 +253,7 @@ std::vector<std::uint32_t> add_bead(Mesh& mesh, const Eigen::Vector3f& centre,
   PackedColour packed = pack(colour);
   for (const int up : {0, 1})
     for (const std::int16_t right : {std::int16_t(-side), side}) {
-      // thirds of the alpha: bit 0 the side, bit 1 the shape
+      // 21845 is a third of 65535: bit 0 the side, bit 1 the shape
       packed[3] = std::uint16_t(21845 * (up + (shape == BeadShape::ball ? 2 : 0)));
       mesh.add(centre, axis, packed);
       mesh.vertices.back().normal[3] = right;

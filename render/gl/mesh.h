@@ -1,4 +1,5 @@
-// Vertices and triangles as the shaders read them.
+// Vertices and triangles as the shaders read them, of rods (ribbons), joints (beads) and cells
+// (patches).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +12,20 @@
 
 namespace gridshell::render {
 
-/// Linear light and alpha, times 65535.
+/// A colour in linear light with alpha, components times 65535.
 using PackedColour = std::array<std::uint16_t, 4>;
 
 PackedColour pack(const Eigen::Vector4f& linear);
 
-/// As the shaders read it (attributes 0, 1, 2).
+/// A vertex as the shaders read it (attributes 0, 1, 2).
 struct Vertex {
-  Eigen::Vector3f position;            ///< mm
-  std::array<std::int16_t, 4> normal;  ///< unit vector times 32767, and of a ribbon its side
+  Eigen::Vector3f position;  ///< mm
+  /// unit vector times 32767; radius of a ribbon or bead with the sign of the side (add_ribbon)
+  std::array<std::int16_t, 4> normal;
   PackedColour colour;
 };
 
-/// Triangles over vertices; what a vertex contains differs from shader to shader.
+/// Triangles over vertices; the meaning of a vertex's members depends on the shader.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
@@ -37,10 +39,10 @@ struct Mesh {
 /// Unit tangents at the points of a polyline: the mean of the edges' directions on either side.
 std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed);
 
-// Rods as ribbons and joints as beads: strips and cards that face the eye and know in every sample
-// how much of it they cover, however thin they are.
+// Rods are ribbons and joints beads: strips and cards that face the eye. Their shaders compute the
+// fraction of every sample that they cover, however thin they are.
 
-/// A polyline of some width.
+/// A polyline with a width.
 struct Ribbon {
   std::span<const Eigen::Vector3f> points;   ///< at least 2, or 3 when closed; mm
   std::span<const Eigen::Vector4f> colours;  ///< linear, one per point
@@ -48,42 +50,41 @@ struct Ribbon {
   bool closed = false;                       ///< the last point joins the first
 };
 
-/// The widest radius that vertices can have; they store theirs as a fraction of it.
+/// The largest radius that vertices can have; they store theirs as a fraction of it.
 inline constexpr float widest_radius_mm = 64;
 
-/// Adds two vertices a point, in order, and no triangles: position on the axis, unit tangent, and
-/// in the normal's fourth component the radius with the side's sign. Returns the first vertex.
+/// Adds two vertices per point, in order, and no triangles: position on the axis, unit tangent, and
+/// in the normal's fourth component the radius over widest_radius_mm with the side's sign. Returns
+/// the index of the first vertex.
 std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon);
 
-/// How far from point `from` a straight piece may go, at most to `last`: all points between lie
-/// within `tolerance_mm` of it, their colours within a step of a screen's. (`last` may be after
-/// the last point of a closed ribbon.)
+/// The last point, at most `last`, to which a straight piece from point `from` may replace the
+/// polyline: all points between are within `tolerance_mm` of it, their colours within a step of a
+/// screen's. `last` may be greater than the number of points of a closed ribbon.
 int longest_straight_piece(const Ribbon& ribbon, int from, int last, float tolerance_mm);
 
-/// The two triangles from point `k` to point `l` of a ribbon with this first vertex.
+/// Adds the two triangles from point `k` to point `l` of the ribbon whose first vertex is `first`.
 void add_strip_quad(std::vector<std::uint32_t>& indices, std::uint32_t first, int k, int l);
 
-enum class BeadShape { cylinder, ball };  ///< a joint, 3 wide and 5 high; or a ball
+enum class BeadShape { cylinder, ball };  ///< a joint, whose height is 5/3 of its width; a mark
 
-/// Adds a card of four vertices and returns its triangles: centre, the bead's unit axis, radius and
-/// a side's sign, and in the colour's alpha the other side's sign and the shape.
+/// Adds a card of four vertices and returns its triangles. A vertex has the centre, the bead's unit
+/// axis, the radius with the sign of left or right, and in the colour's alpha (thirds) lower or
+/// upper and the shape (bead.vert).
 std::vector<std::uint32_t> add_bead(Mesh& mesh, const Eigen::Vector3f& centre,
                                     const Eigen::Vector3f& axis, float radius, BeadShape shape,
                                     const Eigen::Vector4f& colour);
 
-// The cells as sheets spanned between their rods.
-
-/// The triangles of one cell.
+/// The triangles of one cell, a sheet between its rods.
 struct CellPatch {
   int cell = 0;
   std::vector<std::uint32_t> indices;
 };
 
-/// One Coons patch [Coons 1967] a cell, so that its edges lie on the rods however these bend:
+/// Adds the vertices of one Coons patch [Coons 1967] per cell, whose edges follow the rods:
 /// S(u, v) = (1-v) c0(u) + v c1(u) + (1-u) d0(v) + u d1(v) - bilinear(corners).
-/// Adds their vertices to the mesh; their triangles are for whoever knows the order. `colours` are
-/// linear, one per cell; cells whose alpha is 0 are left out. A patch is as coarse as may be with
-/// all points that it leaves out within the tolerance.
+/// Returns the triangles, which the caller orders by depth. `colours` are linear, one per cell;
+/// cells whose alpha is 0 are left out. A patch is as coarse as the tolerance allows.
 std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout,
                                         const Eigen::Matrix3Xd& nodes,
                                         std::span<const Eigen::Vector4f> colours,

@@ -51,7 +51,7 @@ Result<void> attach(const Gl& gl, GLuint program, GLenum stage, Program::Files f
   gl.GetShaderiv(shader, GL_COMPILE_STATUS, &good);
   if (good) {
     gl.AttachShader(program, shader);
-    gl.DeleteShader(shader);  // lives on as long as the program
+    gl.DeleteShader(shader);  // it is freed with the program
     return {};
   }
   std::string log(log_size, '\0');

@@ -1,8 +1,9 @@
-// The OpenGL 3.3 core functions that the renderer calls, looked up in the context that is current.
-// One table serves OSMesa, EGL and GLFW; linking libGL would not (it knows nothing of OSMesa).
+// The OpenGL 3.3 core functions that the renderer calls, taken from the current context, and
+// classes that own OpenGL objects. One table of functions serves OSMesa, EGL and GLFW; a linked
+// libGL would not serve OSMesa.
 #pragma once
 
-#define GL_GLEXT_PROTOTYPES  // for their types; nothing is linked
+#define GL_GLEXT_PROTOTYPES  // declares the functions for their types; nothing is linked
 #include <GL/glcorearb.h>
 #include <Eigen/Core>
 #include <cstddef>
@@ -15,7 +16,7 @@
 #include "engine/core/result.h"
 #include "render/gl/mesh.h"
 
-// The functions, without gl.
+// The names of the functions without "gl".
 // clang-format off
 #define GRIDSHELL_GL_FUNCTIONS(X) \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindTexture) \
@@ -41,13 +42,11 @@ struct Gl {
   GRIDSHELL_GL_FUNCTIONS(GRIDSHELL_GL_MEMBER)
 #undef GRIDSHELL_GL_MEMBER
 
-  /// Errors: Fault::io naming the first function that the context lacks.
+  /// Takes all functions from a context. Errors: Fault::io with the first one that it lacks.
   static Result<Gl> load(const Context& context);
 };
 
-// OpenGL objects that delete themselves: textures, framebuffers, vertex arrays, buffers.
-
-/// Owns one name made by `Generate` and freed by `Delete` (members of Gl).
+/// Owns an OpenGL object: a name made by `Generate` and freed by `Delete` (members of Gl).
 template <auto Generate, auto Delete>
 class Object {
  public:
@@ -69,8 +68,9 @@ class Object {
   GLuint id_ = 0;
 };
 
-/// The position of the shader's input `index` in the vertices of the buffer that is bound, `stride`
-/// bytes each: `size` numbers of `type` from byte `at` on; `unit`: integers represent 0 to 1.
+/// Declares where the bound vertex array finds the shader's input `index` in the bound buffer: in
+/// every vertex of `stride` bytes, `size` numbers of `type` from byte `at`. `unit`: integers
+/// represent [0, 1], signed ones [-1, 1].
 inline void describe_attribute(const Gl& gl, GLuint index, GLint size, GLenum type, bool unit,
                                std::size_t stride, std::size_t at) {
   gl.VertexAttribPointer(index, size, type, unit, GLsizei(stride),
@@ -83,15 +83,14 @@ using Framebuffer = Object<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;
 using VertexArray = Object<&Gl::GenVertexArrays, &Gl::DeleteVertexArrays>;
 using Buffer = Object<&Gl::GenBuffers, &Gl::DeleteBuffers>;
 
-// A framebuffer with a colour texture and, if requested, a depth texture.
-
-/// Allocates again when another size or format is requested, and keeps its storage while they stay.
+/// A framebuffer with a colour texture and, if requested, a depth texture. Its storage is allocated
+/// again only if another size or format is requested.
 class Target {
  public:
   enum class Depth { none, plain, compared };  ///< compared: read by a sampler2DShadow
 
-  /// The first of the colour's `levels` (each half the size before) is drawn into; several levels
-  /// are read with smooth interpolation, a single one texel by texel.
+  /// The colour texture has `levels`, each half the size of the one before; drawing goes to the
+  /// first. Several levels are read with linear interpolation, a single one texel by texel.
   Target(const Gl& gl, Depth depth, int levels = 1)
       : gl_(&gl), depth_kind_(depth), levels_(levels), frame_(gl), colour_(gl), depth_(gl) {}
 
@@ -115,42 +114,38 @@ class Target {
   GLenum format_ = 0;
 };
 
-// A Mesh on the graphics side.
-
+/// A Mesh in the memory of the graphics processor.
 class VertexStore {
  public:
   using Lists = std::initializer_list<std::reference_wrapper<const std::vector<std::uint32_t>>>;
 
   explicit VertexStore(const Gl& gl);
 
-  /// The mesh, and more lists of triangles over its vertices.
+  /// Copies the mesh, and more lists of triangles over its vertices.
   void upload(const Mesh& mesh, Lists more = {});
-  /// List 0 is the mesh's own, then the others in order.
+  /// Draws a list of triangles: 0 is the mesh's own, then the others in order.
   void draw(std::size_t list = 0) const;
-  /// Indices `begin` to `end` - 1 of the mesh's own list.
+  /// Draws indices `begin` to `end` - 1 of the mesh's own list.
   void draw_range(std::size_t begin, std::size_t end) const;
 
  private:
   const Gl* gl_;
   VertexArray layout_;
   Buffer vertices_, indices_;
-  std::vector<std::size_t> starts_;  ///< of each list among the indices, and their end
+  std::vector<std::size_t> starts_;  ///< first index of each list, and the end of the last
 };
 
-// The GLSL files of shaders/, embedded at build time.
-
-/// The text of a file of shaders/ ("solid.vert"); empty when there is no such file.
+/// The text of a file of shaders/ ("ribbon.vert"), embedded at build time; empty if there is no
+/// such file.
 std::string_view shader_text(std::string_view name);
 
-// A linked pair of shaders.
-
-/// Made of files of shaders/; several files of a stage are joined in their order.
+/// A linked pair of shaders. Several files of a stage are joined in their order.
 class Program {
  public:
   using Files = std::initializer_list<std::string_view>;
 
-  /// `defines`: lines of #define that go before all files. Errors: Fault::io with the files and the
-  /// compiler's log.
+  /// Compiles and links files of shaders/. `defines`: lines of #define before all files. Errors:
+  /// Fault::io with the files and the compiler's log.
   static Result<Program> create(const Gl& gl, Files vertex, Files fragment,
                                 std::string_view defines = {});
   ~Program();
@@ -158,7 +153,7 @@ class Program {
   Program& operator=(Program&& other) noexcept;
 
   void use() const;
-  // to the program in use; a name that no shader reads is ignored
+  // sets a uniform of this program, which must be in use; a name that no shader reads is ignored
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, const Eigen::Vector2f& value) const;

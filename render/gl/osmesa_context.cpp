@@ -36,7 +36,7 @@ class OsmesaContext final : public Context {
   }
 
  private:
-  static constexpr int side = 4;  // drawing goes to framebuffer objects; this one stays unused
+  static constexpr int side = 4;  // of the default framebuffer, which is not used
   Osmesa osmesa_;
   OSMesaContext context_;
   std::array<unsigned char, 4 * side * side> pixels_{};

@@ -20,16 +20,16 @@ constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the she
 
 Eigen::Vector3f linear(const Colour& c) { return to_linear(c).head<3>(); }
 
-/// The size of a sample: mm at distance 1 in perspective, else anywhere.
+/// The size of a sample in mm; in perspective at distance 1.
 double sample_size(const RenderJob& shot) {
   const double mm = 2 * shot.camera.half_extent_mm / (shot.height * shot.quality.supersample);
   return shot.camera.field_of_view_deg <= 0 ? mm : mm / camera_distance(shot.camera);
 }
 
-/// The part of a tile that the shell may cover, empty where it covers none.
+/// The part of a tile that the shell may cover; empty if it covers none.
 Tile shell_in(const RenderJob& shot, const Tile& tile) {
-  constexpr double room = 2;  // pixels: edges extend past what they are of
-  constexpr int step = 64;    // pixels: a moving shell's targets are of few sizes
+  constexpr double room = 2;  // pixels, for smooth edges, which are wider than the rods
+  constexpr int step = 64;    // pixels, so that targets for a moving shell have few sizes
   const Eigen::Matrix4d matrix = view_projection(shot.camera, double(shot.width) / shot.height,
                                                  shot.scene.centre(), shot.scene.radius());
   const Eigen::Vector3d *low = &shot.scene.low, *high = &shot.scene.high;
@@ -38,7 +38,7 @@ Tile shell_in(const RenderJob& shot, const Tile& tile) {
     const Eigen::Vector4d at(((corner & 1) ? high : low)->x(), ((corner & 2) ? high : low)->y(),
                              ((corner & 4) ? high : low)->z(), 1);
     const Eigen::Vector4d clip = matrix * at;
-    // what reaches behind the camera may be anywhere
+    // the projection of a corner behind the camera is meaningless
     if (clip.w() <= 0) return tile;
     seen.extend(Eigen::Vector2d(0.5 * (1 + clip.x() / clip.w()) * shot.width,
                                 0.5 * (1 - clip.y() / clip.w()) * shot.height));
@@ -90,16 +90,16 @@ Result<Painter::Programs> Painter::create_programs(int taps) const {
   return Programs{std::move(*sheet), std::move(*ribbon), std::move(*bead)};
 }
 
-/// The programs that the quality takes, each made when it is first used.
+/// Compiles the programs that the quality needs, each at its first use.
 Result<void> Painter::prepare(const DrawQuality& quality) {
-  // jittered light and several samples a pixel soften the shadow by themselves
+  // jittered light or several samples per pixel soften the shadow by themselves
   taps_ = !quality.shadow ? 0 : quality.jittered_passes > 1 || quality.supersample > 1 ? 1 : 4;
   if (!programs_.count(taps_)) {
     TRY(programs, create_programs(taps_));
     programs_.emplace(taps_, std::move(*programs));
   }
   if (const int s = quality.supersample; s > 1 && !average_.count(s)) {
-    // a loop of known length costs half of one that is not
+    // a loop whose length is known to the compiler costs half
     TRY(program, Program::create(*gl_, {"screen.vert"}, {"average.frag"},
                                  fmt::format("#define PER_SIDE {}\n", s)));
     average_.emplace(s, std::move(*program));
@@ -130,7 +130,7 @@ Result<void> Painter::paint(const RenderJob& shot, const Tile& tile, Image& imag
   return {};
 }
 
-/// The shadow of a pass, unless the map contains it from the tile before.
+/// Draws the shadow map of a pass, unless it is still that of this pass from the tile before.
 Result<void> Painter::cast(const RenderJob& shot, int pass) {
   if (!shot.quality.shadow || shadow_of_ == pass) return {};
   const Lighting& light = passes_[std::size_t(pass)];
@@ -157,8 +157,8 @@ Result<void> Painter::paint_single_pass(const RenderJob& shot, const Tile& tile)
   return {};
 }
 
-/// The mean of all passes: the shell's is gathered where the shell is, of the ground the light
-/// alone, and the one laid over the other once.
+/// Paints the mean of all passes. The shell is summed where it may be seen, and for the ground only
+/// the light; the shell is then composited over the ground once.
 Result<void> Painter::paint_multi_pass(const RenderJob& shot, const Tile& tile) {
   const Tile part = shell_in(shot, tile);
   const bool shell = part.width > 0 && part.height > 0;
@@ -190,7 +190,7 @@ Result<void> Painter::paint_multi_pass(const RenderJob& shot, const Tile& tile) 
   return {};
 }
 
-/// Adds the shell in one light to the sum.
+/// Adds the shell in the light of one pass to the sum.
 Result<void> Painter::accumulate_shell(const RenderJob& shot, const Tile& part,
                                        const Lighting& light, bool first) {
   const int s = shot.quality.supersample;
@@ -212,7 +212,7 @@ Result<void> Painter::accumulate_shell(const RenderJob& shot, const Tile& part,
   return {};
 }
 
-/// The shell over nothing, premultiplied, in samples.
+/// Draws the shell on a transparent target of s x s samples per pixel, premultiplied.
 Result<void> Painter::paint_shell(const RenderJob& shot, const Tile& tile, const Lighting& light,
                                   Target& to) {
   const int s = shot.quality.supersample;
@@ -224,7 +224,7 @@ Result<void> Painter::paint_shell(const RenderJob& shot, const Tile& tile, const
   return {};
 }
 
-/// From the world to a tile, whose target has the top row first.
+/// Matrix from the world to the clip coordinates of a tile, whose target has the top row first.
 Eigen::Matrix4d Painter::matrix_of(const RenderJob& shot, const Tile& tile, const Lighting& light) {
   Eigen::Matrix4d matrix =
       crop(tile, shot.width, shot.height, light.pixel_shift / shot.quality.supersample) *
@@ -234,8 +234,8 @@ Eigen::Matrix4d Painter::matrix_of(const RenderJob& shot, const Tile& tile, cons
   return matrix;
 }
 
-/// Adds a fraction of the contents of another target to the bound one, or puts it there, its first
-/// pixel at `corner`.
+/// Draws a texture, times `fraction`, to the bound target with its first texel at pixel `corner`,
+/// with the current blending.
 void Painter::show(GLuint texture, float fraction, const Eigen::Vector2i& corner) const {
   mean_.use();
   mean_.set("corner", Eigen::Vector2f(corner.cast<float>()));
@@ -246,7 +246,7 @@ void Painter::show(GLuint texture, float fraction, const Eigen::Vector2i& corner
   screen_triangle();
 }
 
-/// Lays the samples of `part` over the bound target, whose pixel `corner` is their first.
+/// Composites the samples of `part` (in layer_) over the bound target, from its pixel `corner`.
 void Painter::composite_shell(int per_side, const Tile& part, const Eigen::Vector2i& corner) const {
   const Program& program = average_.at(per_side);
   program.use();
@@ -257,7 +257,7 @@ void Painter::composite_shell(int per_side, const Tile& part, const Eigen::Vecto
   gl_->Viewport(corner.x(), corner.y(), part.width, part.height);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, layer_.colour());
-  // four samples of a pixel in one fetch between them
+  // one fetch between the four samples of a pixel gives their mean
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_->Enable(GL_BLEND);
@@ -274,7 +274,7 @@ void Painter::set_light(const Program& program, const RenderJob& shot,
                    : Eigen::Vector3d(shot.camera.target - camera_distance(shot.camera) * forward);
   Eigen::Vector4f eye_uniform;
   eye_uniform << eye.cast<float>(), orthographic ? 0.f : 1.f;
-  // what the camera shows, not what the scene contains: a movie's frames must not differ by it
+  // haze depends on the camera and not on the contents, so that it is the same in a movie's frames
   const double extent = shot.camera.half_extent_mm;
   const double middle = forward.dot(shot.camera.target);
   program.set("light_direction", Eigen::Vector3f(light.direction.cast<float>()));

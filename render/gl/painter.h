@@ -1,5 +1,5 @@
-// A picture, tile by tile and pass by pass: the ground with the shell's shadow on it, and the
-// shell.
+// Painting of a picture, tile by tile and pass by pass: the ground with the shell's shadow, then
+// the shell.
 #pragma once
 
 #include <map>
@@ -11,32 +11,36 @@
 
 namespace gridshell::render {
 
-/// It fills the picture before what is on it is painted. The light on it is found once, in the
-/// shadow map's own plane, and looked up where the map reaches; elsewhere it is that of the open.
+/// The ground, which fills the picture before the shell is painted. The light on the part of it
+/// that the shadow map contains is computed once, in the map's plane; elsewhere it is that in the
+/// open.
 class Ground {
  public:
   /// `gl` outlives it.
   static Result<Ground> create(const Gl& gl);
 
-  /// The ground hides nothing when it is seen from below, or where the drawing has none.
+  /// Whether the picture shows the ground: the drawing has one and the camera is above it.
   static bool seen(const RenderJob& shot);
 
-  /// Fills the bound target. `matrix` takes the world to its clip coordinates; `shadow`, softened
-  /// before, may be null.
+  /// Fills the bound target. `matrix` maps the world to the target's clip coordinates. `shadow`,
+  /// for which soften() was called, may be null.
   void draw(const RenderJob& shot, const Eigen::Matrix4d& matrix, const Lighting& light,
             const ShadowMap* shadow) const;
 
-  /// The light alone is gathered over many passes, pixel by pixel, and the ground drawn once with
-  /// it. Begins with that of all in the open.
+  // With many passes the mean light at every pixel is computed first, and the ground drawn once:
+  // begin_ground_light(), gather() for each pass, draw_ground_light().
+
+  /// Sets the light at every pixel to the mean of all passes in the open.
   Result<void> begin_ground_light(const Tile& tile, const std::vector<Lighting>& passes);
-  /// Takes away what a pass's shadow does, softened before.
+  /// Subtracts the light that the shadow of one of `passes` passes removes; soften() was called.
   Result<void> gather(const RenderJob& shot, const Tile& tile, const Eigen::Matrix4d& matrix,
                       const Lighting& light, const ShadowMap& shadow, int passes);
-  /// Fills the bound target.
+  /// Fills the bound target with the ground in the light of all passes.
   void draw_ground_light(const RenderJob& shot, const Eigen::Matrix4d& matrix) const;
 
-  /// Finds the light on the ground under `shadow`, before it is drawn with it. `many`: the light is
-  /// one of many whose mean is shown, and so the sky's shadow is among them.
+  /// Computes the light on the ground under `shadow`, before draw() or gather(). `many`: the light
+  /// is one of many passes, whose directions include the sky's, so that no shadow of the sky is
+  /// added.
   Result<void> soften(const RenderJob& shot, const ShadowMap& shadow, const Lighting& light,
                       bool many);
 
@@ -54,24 +58,24 @@ class Ground {
 
   const Gl* gl_;
   Programs programs_;
-  Target light_;     ///< on the ground, over that in the open
-  Target gathered_;  ///< that of many passes, in pixels
+  Target light_;     ///< light on the ground over that in the open, in the plane of the shadow map
+  Target gathered_;  ///< mean light of many passes at every pixel
   VertexArray no_vertices_;
 };
 
-/// Paints one tile of a picture. The ground is drawn first, then the shell over it from far to
-/// near; of many passes the shell's mean over the ground in the mean of their light. With several
-/// samples a pixel the shell's go into a layer of their own (premultiplied, linear light), whose
-/// mean over each pixel is laid over the ground.
+/// Paints a picture tile by tile. The ground is drawn first, then the shell over it from far to
+/// near; with many passes, the mean of the shell over the ground in the mean light. With several
+/// samples per pixel the shell is drawn into a layer of its own (premultiplied, linear light),
+/// whose mean over each pixel is composited over the ground.
 class Painter {
  public:
   /// `gl` outlives it.
   static Result<Painter> create(const Gl& gl);
 
-  /// Makes ready for the shot: sends the scene's triangles over. Before its first tile.
+  /// Copies the scene's triangles to the graphics processor; to be called before the first tile.
   Result<void> begin(const RenderJob& shot);
 
-  /// Fills the tile's part of `image`.
+  /// Paints a tile into its part of `image`.
   Result<void> paint(const RenderJob& shot, const Tile& tile, Image& image);
 
  private:
@@ -101,8 +105,8 @@ class Painter {
 
   const Gl* gl_;
   Program mean_;
-  std::map<int, Programs> programs_;  ///< by taps of the shadow that falls on the shell
-  int taps_ = 0;                      ///< of the shot
+  std::map<int, Programs> programs_;  ///< by the taps of the shadow on the shell (shadow.glsl)
+  int taps_ = 0;                      ///< of the current picture
   std::map<int, Program> average_;    ///< by samples along a pixel's side
   Ground ground_;
   ShadowMap shadow_;

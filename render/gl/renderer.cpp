@@ -18,7 +18,7 @@ namespace {
 
 constexpr double radian = std::numbers::pi / 180;
 
-constexpr int largest_target = 4096;  // samples a side: a tile and its depth stay near the caches
+constexpr int largest_target = 4096;  // samples per side of a tile, for the sake of the caches
 constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
 
 Result<void> check(const DrawQuality& quality, int width, int height) {
@@ -32,7 +32,7 @@ Result<void> check(const DrawQuality& quality, int width, int height) {
   return {};
 }
 
-/// From colours times alpha, mixed in linear light, to colours and alpha separately.
+/// Divides the colours, which were multiplied by alpha in linear light, by alpha.
 void unpremultiply(Image& image) {
   for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
     const float alpha = float(image.rgba[k + 3]) / 255;
@@ -61,7 +61,7 @@ class GlRenderer final : public Renderer {
     TRY_DO(check(quality, width, height));
     const double sample_mm = 2 * camera.half_extent_mm / height / quality.supersample;
     TRY(scene, make_scene(drawing, camera, sample_mm, quality));
-    while (gl_.GetError() != GL_NO_ERROR) continue;  // not ours
+    while (gl_.GetError() != GL_NO_ERROR) continue;  // ignore errors of earlier callers
 
     Image image(width, height);
     const RenderJob shot{*scene, drawing, camera, quality, width, height};
@@ -90,7 +90,7 @@ CameraAxes camera_axes(const Camera& camera) {
   CameraAxes axes;
   axes.forward = -Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  // straight from above or below no vertical is left
+  // seen straight from above or below the z axis has no direction in the picture
   const bool straight = std::abs(axes.forward.z()) > 1 - 1e-9;
   const Eigen::Vector3d top = straight ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   axes.right = axes.forward.cross(top).normalized();

@@ -17,8 +17,8 @@
 namespace gridshell::render {
 namespace {
 
-// what pieces longer than the edges of a mesh may miss, in pixels: of a rod, whose outline shows
-// it, and of a cell, whose sides are hidden by rods
+// errors in pixels by which pieces may be longer than the edges of a mesh: of rods, where they
+// show, and of cells, whose sides are hidden by rods
 struct Tolerance {
   double rod_pixels, cell_pixels;
 };
@@ -30,7 +30,7 @@ using Colours = std::vector<Eigen::Vector4f>;
 /// Rods, rings and joints are never translucent.
 Eigen::Vector4f opaque(const Colour& c) { return to_linear({c.r, c.g, c.b, 1}); }
 
-/// The first mismatch that would make drawing read past an array or draw NaN; empty when sound.
+/// The first inconsistency with which drawing would read past an array or draw NaN; empty: none.
 std::string mismatch(const Drawing& drawing) {
   if (!drawing.layout) return "has no layout";
   const auto nodes = std::size_t(drawing.nodes.cols());
@@ -70,7 +70,7 @@ Points points_of(const Eigen::Matrix3Xd& nodes, const std::vector<int>& rod) {
   return points;
 }
 
-/// Every joint's node, and the cells on either side of two joints' stretch.
+/// Which nodes are joints, and the cells on either side of a rod's segment between two joints.
 class Neighbours {
  public:
   Neighbours(const record::Layout& layout, Eigen::Index nodes) : joint_(std::size_t(nodes)) {
@@ -84,7 +84,7 @@ class Neighbours {
     std::ranges::sort(sides_);
   }
   bool joint(int node) const { return joint_[std::size_t(node)] != 0; }
-  /// Sides of cells between two joints: {joint, joint, cell}.
+  /// Sides of cells between the nodes a and b of two joints: {node, node, cell}.
   std::span<const std::array<int, 3>> cells(int a, int b) const {
     const auto found =
         std::ranges::equal_range(sides_, std::pair(std::min(a, b), std::max(a, b)), {},
@@ -97,7 +97,7 @@ class Neighbours {
   std::vector<std::array<int, 3>> sides_;
 };
 
-/// Collects the pieces, each with its depth along the view, and puts them in order.
+/// Collects the pieces of a scene, each with its depth along the view, and orders them.
 class Weaver {
  public:
   Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample,
@@ -128,8 +128,8 @@ class Weaver {
     }
   }
 
-  /// A segment between joints comes with the nearer of the cells next to it, so that these do not
-  /// cover half of it, and a joint with the nearest of its stretches.
+  /// Adds the rods in segments between joints. A segment has the depth of the nearer of the cells
+  /// next to it, so that these do not cover half of it, and a joint that of its nearest segment.
   void add_rods() {
     const Neighbours neighbours(*drawing_.layout, drawing_.nodes.cols());
     Points normals;
@@ -173,7 +173,7 @@ class Weaver {
     }
   }
 
-  /// A sheet, so that it casts a shadow and its cells do not cover it.
+  /// Adds a lath's piece to the sheets, so that it casts a shadow and its cells do not cover it.
   void add_box(const LathPiece& piece, double depth) {
     const Lighting light = lighting_passes(camera_, 1).front();
     LathView view;
@@ -186,13 +186,13 @@ class Weaver {
   }
 
   void add_joints() {
-    const double least_mm = quality_.coarse ? 2 * mm_per_sample_ : 0;  // a dot that moves
+    const double least_mm = quality_.coarse ? 2 * mm_per_sample_ : 0;  // smaller ones are left out
     if (drawing_.joint_diameter_mm <= least_mm) return;
     const auto normals = shell_normals(drawing_);
     const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
     const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
     const auto& [joints, above] = std::tie(drawing_.layout->joints, drawing_.layout->above);
-    // a point of one rod alone, as networks have, joins nothing
+    // a joint with a single rod, as networks have, is not drawn
     std::vector<int> rods_at(above.empty() ? std::size_t(drawing_.nodes.cols()) : 0),
         last_rod(rods_at.size(), -1);
     if (above.empty())
@@ -205,7 +205,7 @@ class Weaver {
       const float length = normals[joint].norm();
       const Eigen::Vector3f axis =
           length > 1e-6f ? Eigen::Vector3f(normals[joint] / length) : Eigen::Vector3f::UnitZ();
-      // where rods lie above one another the bolt's two ends
+      // if rods are above one another, a joint has two nodes, the ends of its bolt
       for (const int node : std::set{joint, above.empty() ? joint : above[k]}) {
         const Eigen::Vector3f at = drawing_.nodes.col(node).cast<float>();
         const double depth = std::min(node_depth_[node], forward_.dot(drawing_.nodes.col(node)));
@@ -288,7 +288,7 @@ class Weaver {
     }
   }
 
-  /// From far to near, cut into layers of equal depth, each drawn by calls of its own.
+  /// Orders the pieces from far to near and divides them into layers of equal depth.
   void finish() {
     const int most_layers = quality_.coarse && beads_.empty() ? 8 : 32;
     double near = INFINITY, far = -INFINITY;
@@ -299,7 +299,7 @@ class Weaver {
       far = std::max(far, pieces->front().depth);
       near = std::min(near, pieces->back().depth);
     }
-    // without sheets nothing hides what is behind it but rods, whose order is their own
+    // ribbons alone are in the right order already
     const int layers = sheets_.empty() && beads_.empty() ? 1 : most_layers;
     std::size_t sheet = 0, ribbon = 0, bead = 0;
     for (int k = 1; k <= layers; ++k) {
@@ -336,12 +336,12 @@ class Weaver {
       next = longest_straight_piece(ribbon, k, end, rod_tolerance());
       add_strip_quad(piece.indices, first, k, next);
     }
-    // a shadow keeps every edge: where it just touches a rod little decides
+    // shadows have all edges, since small changes show where a shadow just touches a rod
     for (int k = begin; casts && quality_.shadow && k < end; ++k)
       add_strip_quad(scene_.casters, first, k, k + 1);
     ribbons_.push_back(std::move(piece));
   }
-  /// A bead's shadow is that of a short strip as wide as it.
+  /// Adds a short strip as wide as a bead, which casts the bead's shadow.
   void add_bead_shadow(const Eigen::Vector3f& at, const Eigen::Vector3f& axis, float radius) {
     const Eigen::Vector3f half = 5.f / 3 * radius * axis;
     const Points points{at - half, at + half};

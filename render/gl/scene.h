@@ -12,18 +12,18 @@
 
 namespace gridshell::render {
 
-/// What is painted between two depths: indices from these up to the next layer's.
+/// The pieces between two depths: the indices from these up to those of the next layer.
 struct Layer {
   std::size_t sheets = 0, ribbons = 0, beads = 0;
 };
 
-/// Everything to draw of a frame, seen by one camera: three kinds of pieces, each kind's triangles
-/// from far to near and cut into layers. Painted layer by layer, in each sheets, then ribbons, then
-/// beads, what is nearer lies over what is farther without any test of depth.
+/// The triangles of a frame, seen by one camera: three kinds of pieces, each ordered from far to
+/// near and divided into layers by depth. They are painted layer by layer (in each sheets, then
+/// ribbons, then beads), so that nearer parts cover farther ones without a depth test.
 struct Scene {
-  Mesh sheets, ribbons, beads;         ///< cells; rods, rings, ghosts, arrows; joints and marks
-  std::vector<Layer> layers;           ///< one more than there are, for the end
-  std::vector<std::uint32_t> casters;  ///< triangles of `ribbons` that throw a shadow
+  Mesh sheets, ribbons, beads;  ///< cells and laths; rods, rings, ghosts, arrows; joints and marks
+  std::vector<Layer> layers;    ///< and one more, the end of the last
+  std::vector<std::uint32_t> casters;  ///< triangles of `ribbons` that cast a shadow
   Eigen::Vector3d low = Eigen::Vector3d::Zero(),
                   high = Eigen::Vector3d::Zero();  ///< box around all
 
@@ -31,15 +31,13 @@ struct Scene {
   double radius() const;
 };
 
-/// `mm_per_sample` is the size of a sample in the plane through the camera's target: nothing is
-/// thinner than a sample.
-/// Errors: Fault::bad_input when the drawing's arrays do not fit each other or a node is not
-/// finite.
+/// Makes the triangles of a drawing. `mm_per_sample` is the size of a sample in the plane through
+/// the camera's target; no rod is drawn thinner. Errors: Fault::bad_input if the drawing's arrays
+/// do not fit each other or a node is not finite.
 Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample,
                          const DrawQuality& quality = {});
 
-// Everything that one picture is made from.
-
+/// The input of one picture. The references must outlive it.
 struct RenderJob {
   const Scene& scene;
   const Drawing& drawing;
@@ -48,9 +46,8 @@ struct RenderJob {
   int width, height;
 };
 
-// A large picture cut into tiles that a context can store.
-
-/// Pixels x .. x + width - 1 and y .. y + height - 1 of a picture, y down.
+/// A part of a large picture, small enough for a context's targets: pixels x .. x + width - 1 and
+/// y .. y + height - 1, y down.
 struct Tile {
   int x = 0, y = 0, width = 0, height = 0;
 };
@@ -64,7 +61,8 @@ inline std::vector<Tile> tiles(int width, int height, int side) {
   return result;
 }
 
-/// From the picture's clip coordinates to the tile's; everything moves by `shift` pixels (y up).
+/// Matrix from the picture's clip coordinates to the tile's, with a displacement by `shift` pixels
+/// (y up).
 inline Eigen::Matrix4d crop(const Tile& tile, int width, int height, const Eigen::Vector2d& shift) {
   const double sx = double(width) / tile.width, sy = double(height) / tile.height;
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();

@@ -52,7 +52,7 @@ std::string reason_of(const Glfw& glfw) {
   return text ? text : "unknown reason";
 }
 
-/// What is printed on a key; empty for one that nobody asks for.
+/// The name printed on a key; empty for a key that has no use.
 std::string name_of_key(int key) {
   if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) return {char('A' + key - GLFW_KEY_A)};
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return {char('0' + key - GLFW_KEY_0)};
@@ -84,7 +84,7 @@ class GlfwWindow final : public Window {
     glfw_.set_user_pointer(window_, this);
     pointer_of = glfw_.user_pointer;
     glfw_.on_cursor(window_, [](GLFWwindow* w, double x, double y) {
-      // screen coordinates are not pixels everywhere
+      // on some systems screen coordinates are not pixels
       const double scale = of(w).pixels_a_unit();
       of(w).pass([&](const WindowListener& to) { to.mouse(scale * x, scale * y); });
     });
@@ -146,7 +146,7 @@ class GlfwWindow final : public Window {
   void show_cursor(Cursor cursor) override {
     if (cursor == cursor_) return;
     cursor_ = cursor;
-    // the library frees them when it ends
+    // GLFW frees its cursors when it terminates
     static constexpr int shapes[] = {GLFW_ARROW_CURSOR, GLFW_HAND_CURSOR, GLFW_CROSSHAIR_CURSOR,
                                      GLFW_IBEAM_CURSOR};
     GLFWcursor*& shape = cursors_[std::size_t(cursor)];
@@ -156,13 +156,13 @@ class GlfwWindow final : public Window {
   void present() override { glfw_.swap(window_); }
 
  private:
-  /// Callbacks of GLFW know a window only by a pointer that the library, loaded late, hands out.
+  /// GLFW's function that returns the GlfwWindow of a window; callbacks have no other access to it.
   static inline decltype(&glfwGetWindowUserPointer) pointer_of = nullptr;
   static GlfwWindow& of(GLFWwindow* window) {
     return *static_cast<GlfwWindow*>(pointer_of(window));
   }
-  /// Hands an event on. What the listener throws waits until the library, which is written in C,
-  /// has returned; events after it are dropped.
+  /// Passes an event to the listener. An exception of the listener is stored until GLFW, which is
+  /// written in C, has returned; events after it are dropped.
   template <class Event>
   void pass(const Event& event) {
     if (!listener_ || thrown_) return;

@@ -22,12 +22,12 @@ bool has_radius(const std::vector<BranchPoint>& points) {
       points, [](const BranchPoint& p) { return std::isfinite(p.boundary_radius_mm); });
 }
 
-/// The path is black; branches come in colours, the two sides of a bifurcation in one.
+/// The colour of a branch: black for the path itself; both sides of a bifurcation have one colour.
 Colour colour_of(int branch) {
   return branch == 0 ? ink : series_colour(std::size_t(branch - 1) / 2);
 }
 
-/// Marks of what happens.
+/// The marker of an event.
 struct EventMark {
   BranchEvent event;
   const char* name;
@@ -57,8 +57,9 @@ class Place {
   BranchAxis axis_;
 };
 
-/// Whether the path from a point to the next is stable. Where something happens the state may be
-/// either's, so the other end says it; a branch begins with a state of another one.
+/// Whether the path to point `to` from the one before is stable. The stability of a state at an
+/// event is not certain, and a branch begins with a state of another one: the other end then
+/// decides.
 bool stable_between(const std::vector<BranchPoint>& points, std::size_t to) {
   const BranchPoint &a = points[to - 1], &b = points[to];
   const bool begins = to == 1 || points[to - 2].branch != a.branch;
@@ -67,7 +68,7 @@ bool stable_between(const std::vector<BranchPoint>& points, std::size_t to) {
   return a.stable() && b.stable();
 }
 
-/// The branches as pieces that are stable or not throughout.
+/// The branches in pieces that are all stable or all unstable.
 std::vector<Series> pieces_of(const std::vector<BranchPoint>& points, const Place& place) {
   std::vector<Series> pieces;
   for (std::size_t k = 1; k < points.size(); ++k) {
@@ -93,7 +94,7 @@ Series marks_of(const std::vector<BranchPoint>& points, const Place& place, cons
   return series;
 }
 
-/// The part of the x axis in which things happen, where that is a small one.
+/// The range of x with all events, if it is a small part of the axis; otherwise empty.
 std::optional<std::pair<double, double>> close_up(const std::vector<BranchPoint>& points,
                                                   const Place& place) {
   double low = INFINITY, high = -INFINITY, least = INFINITY, most = -INFINITY;
@@ -111,7 +112,7 @@ std::optional<std::pair<double, double>> close_up(const std::vector<BranchPoint>
   return std::pair(std::max(least, low - room), std::min(most, high + room));
 }
 
-/// What of a series lies between two x: marks that do, pieces of lines cut there.
+/// The part of a series between two x; lines are cut at these x.
 Series cut(const Series& whole, double low, double high) {
   Series part = whole;
   part.x.clear();
@@ -121,7 +122,7 @@ Series cut(const Series& whole, double low, double high) {
     const double x = whole.x[k];
     const bool inside = x >= low && x <= high;
     if (line && k > 0) {
-      // where the path from the point before crosses an end
+      // the crossing of an end by the line from the point before
       const double x0 = whole.x[k - 1], y0 = whole.y[k - 1];
       for (const double end : x0 < x ? std::array{low, high} : std::array{high, low})
         if ((x0 - end) * (x - end) < 0)
@@ -135,20 +136,20 @@ Series cut(const Series& whole, double low, double high) {
   return part;
 }
 
-/// The panel with its x axis cut to a part, and its y axis to what is there.
+/// The panel with its x axis cut to a range, and its y axis to the values in it.
 Plot part_of(Plot plot, const std::pair<double, double>& x) {
   double low = INFINITY, high = -INFINITY;
   for (Series& s : plot.series) {
     s = cut(s, x.first, x.second);
     for (const double y : s.y) {
-      // not a number is neither
+      // NaN is ignored
       low = std::min(low, std::isnan(y) ? low : y);
       high = std::max(high, std::isnan(y) ? high : y);
     }
   }
   plot.x.low = x.first;
   plot.x.high = x.second;
-  // what stays level is no picture of round-off
+  // a constant value is not enlarged to its round-off
   const double room = std::max(0.06 * (high - low), 1e-3);
   plot.y.low = low - room;
   plot.y.high = high + room;
@@ -179,7 +180,7 @@ void draw_legend(Canvas& canvas, const std::vector<BranchPoint>& points, Point a
 
 using record::LoadPoint;
 
-/// A case's path in pieces that are stable or not throughout; the first bears its name.
+/// Adds a case's path in pieces that are all stable or all unstable; the first has its name.
 void add_path(const std::vector<LoadPoint>& points, const std::string& name, Colour colour,
               Plot& plot) {
   const LoadPoint* before = nullptr;
@@ -210,8 +211,8 @@ Series marks_of(const std::vector<LoadPoint>& points, BranchEvent event, const c
   return marks;
 }
 
-/// Where each case's rods reach their strength: the factor with its error, the displacement as the
-/// path on the finest mesh passes there.
+/// The points at which the rods of each case reach their strength: the factor with its error over
+/// the displacement on the path of the finest mesh.
 Series strength_marks(const std::vector<LoadPoint>& points,
                       const std::vector<record::LoadRow>& cases) {
   Series marks = mark_series("strength reached", ink, Marker::triangle, 4);
@@ -240,11 +241,11 @@ Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
   plot.legend = LegendPosition::none;
   plot.font_size = 8;
   plot.series = pieces_of(points, place);
-  // the path itself on top
+  // the path itself is drawn last
   std::stable_partition(plot.series.begin(), plot.series.end(),
                         [](const Series& s) { return s.line_width < 1.2; });
   for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
-  // a branch's number in its table, where it ends
+  // the number of a branch in the table is at its end
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k].branch > 0 &&
         (k + 1 == points.size() || points[k + 1].branch != points[k].branch))
@@ -276,15 +277,13 @@ Result<void> write_branches(const std::filesystem::path& stem,
   });
 }
 
-// What a shell carries: the load factor over a joint's displacement, a curve per case.
-
 Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::LoadRow>& cases,
                const std::string& title) {
   Plot plot;
   plot.title = title;
   plot.x.label = "largest joint displacement (mm)";
   plot.y.label = "load factor";
-  // factors that are far apart are shown over the critical one of each
+  // if the critical factors differ much, the factors of each case are divided by its own
   constexpr double far_apart = 4;
   std::map<std::string, double> critical;
   double least = INFINITY, most = 0;

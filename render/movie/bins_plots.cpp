@@ -12,7 +12,8 @@ namespace {
 constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
     now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
 
-/// "Σ*K*_{□} = 5.898 rad, −1.78 %"; in rad where the first is next to nothing.
+/// "Σ*K*_{□} = 5.898 rad, −1.78 %": the sum and its change, which is in rad if the first sum is
+/// nearly zero.
 std::string total_K_caption(double first, double now) {
   const double change = now - first;
   const bool relative = std::abs(first) > 0.1;
@@ -49,7 +50,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   before.name = "unloaded, mean ± s.d.";
   before.kind = SeriesKind::bars;
   before.colour = reference;
-  // both deviations are seen, next to one another
+  // both error bars are visible, side by side
   Series spread = mark_series("", reference_ink, Marker::none);
   for (std::size_t k = 0; k < before.x.size(); ++k) {
     spread.add(before.x[k] - 0.14 * before.bar_width, before.y[k]);
@@ -63,7 +64,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   now.marker_size = spread.marker_size = 0.6 * font_size;
   const Stroke dashed{reference_ink, 0.08 * font_size, {0.35 * font_size, 0.25 * font_size}},
       solid{mean_ink, 0.1 * font_size, {}};
-  // lines across the plot have a row of the legend too
+  // empty series, for the rows of the legend of the lines across the plot
   plot.series = {
       before, spread, now,
       line_series("mean of all cells, unloaded", dashed.colour, dashed.width, dashed.dash),

@@ -17,7 +17,7 @@
 namespace gridshell::render {
 namespace {
 
-/// How far each block is moved so that they are separate, in proportion to its position.
+/// Horizontal displacements that separate the blocks, in proportion to their positions.
 std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
                                    Eigen::Matrix3Xd record::Part::*where, double fraction) {
   std::vector<Eigen::Vector3d> moves;
@@ -33,14 +33,14 @@ std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
   return moves;
 }
 
-/// A block where it is shown.
+/// A block and its displacement in the picture.
 struct PlacedBlock {
   const record::Part* part = nullptr;
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
 };
 
-/// Those of one run apart, where they are in the assemblage; of several runs one of each kind, in a
-/// row.
+/// The blocks of a single run, separated from their positions in the assemblage; of several runs
+/// one block of each kind, in a row.
 std::vector<PlacedBlock> placed_blocks(const std::vector<NetRun>& runs) {
   std::vector<PlacedBlock> blocks;
   if (runs.size() == 1) {
@@ -66,7 +66,7 @@ std::vector<PlacedBlock> placed_blocks(const std::vector<NetRun>& runs) {
   return blocks;
 }
 
-/// The blocks as one net of rods; `owner` is the block of each point.
+/// The blocks as one trajectory of a single frame; `owner` gets the index of each point's block.
 record::Trajectory blocks_apart(const record::Layout& layout,
                                 const std::vector<PlacedBlock>& placed,
                                 std::vector<std::size_t>& owner) {
@@ -107,7 +107,7 @@ void draw_rods(Canvas& canvas, const PlanView& place, const record::Part& part,
                 stroke);
 }
 
-/// Blocks apart above, joined below.
+/// The sheet of block footprints: separate ones above, joined ones below.
 struct BlockSheet {
   std::vector<Eigen::Vector3d> moves;
   Extent above, below;
@@ -125,7 +125,9 @@ struct BlockSheet {
   double high() const { return above.size().y() + below.size().y(); }
 };
 
-/// "quarter sphere 1 east – saddle west" of "quarter sphere 1.east - saddle.west"
+/// The name of a seam in a picture: "quarter sphere 1 east – saddle west" for "quarter
+/// sphere 1.east
+/// - saddle.west".
 std::string seam_text(std::string seam) {
   std::ranges::replace(seam, '.', ' ');
   if (const auto at = seam.find(" - "); at != seam.npos) seam.replace(at, 3, " – ");
@@ -151,7 +153,7 @@ BlockKinds::BlockKinds(const std::vector<NetRun>& runs) {
 }
 
 Colour BlockKinds::colour(const std::string& block) const {
-  // blue last: under a dark shell it reads as that
+  // blue is the last, since it is hard to distinguish below a dark shell
   constexpr Colour colours[] = {{0.85f, 0.45f, 0.10f, 1},
                                 {0.10f, 0.55f, 0.40f, 1},
                                 {0.62f, 0.25f, 0.62f, 1},
@@ -181,7 +183,7 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
   drawing.rod_diameter_mm *= 1.5;
   for (const std::size_t block : owner)
     drawing.node_colours.push_back(kinds.colour(placed[block].part->name));
-  // one of each kind: their letters are in front of them
+  // with one block of each kind, letters are in front of the blocks
   for (std::size_t k = 0; k < placed.size() && runs.size() > 1; ++k) {
     const auto& [part, move] = placed[k];
     const Eigen::Vector3d low = part->net.rowwise().minCoeff(),
@@ -227,7 +229,7 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
   const Box length = draw_spacing(canvas, left, layout, scale);
   const TextStyle style{.size = 7, .align_y = AlignY::middle};
   const Point after{length.right() + 8, left.y};
-  // a page says it once for all
+  // the boundary is explained only where there is room, which is once on a page
   if (after.x + canvas.measure(rim_text, style).width <= box.right())
     canvas.text(rim_text, after, style);
 }
@@ -235,7 +237,7 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
 Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title,
                                     const Print& print) {
-  // text keeps its size however wide the figure is printed
+  // the size of text does not depend on the printed width
   const double width = print.width_pt(340);
   constexpr double margin = 12;
   const BlockSheet sheet(run.layout);
@@ -260,7 +262,7 @@ std::vector<Plot> seam_plots(const record::Trajectory& run) {
   plots[0].y.label = "gap (mm)";
   plots[1].y.label = "angle between tangents (°)";
   std::map<std::string, std::array<Series, 2>> seams;
-  // a seam runs across both families: its middle has the mean of the lines of each
+  // a seam crosses rods of both families; its middle is at the mean of each family's lines
   std::map<std::pair<std::string, char>, std::pair<double, int>> lines;
   for (const record::SeamRod& rod : run.layout.seam_rods) {
     auto& [sum, count] = lines[{rod.seam, rod.family}];
@@ -278,7 +280,7 @@ std::vector<Plot> seam_plots(const record::Trajectory& run) {
   std::size_t index = 0;
   for (auto& [name, pair] : seams) {
     for (std::size_t k = 0; k < 2; ++k) {
-      // seams may be mirror images: the later ones lie inside
+      // seams may be mirror images: later markers are smaller, inside the earlier ones
       Series marks = mark_series(plain(seam_text(name)), series_colour(index), series_marker(index),
                                  std::max(2.2, 5.4 - 2.0 * double(index)));
       marks.x = std::move(pair[k].x);

@@ -1,4 +1,4 @@
-// Maps whose cells are coloured: of outcomes of methods, and of a sweep over two keys.
+// Maps of coloured cells: outcomes of methods, and a sweep over two keys.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using record::SweepTable;
 /// A frame around cells of one size, with a name above and texts at its columns and rows.
 struct CellMap {
   Box box;
-  std::string name, x_label;                ///< marked text
-  std::vector<std::string> x = {}, y = {};  ///< a text a column and, from below, a row
+  std::string name, x_label;                ///< text with markup
+  std::vector<std::string> x = {}, y = {};  ///< a text per column and, from below, per row
   double size = 8, column_size = 7, row_size = 7, label_size = 8;  ///< of fonts
   double name_room = 4, column_room = 3, label_room = 15;          ///< from the frame to the texts
   bool rows_named = true;
@@ -34,12 +34,12 @@ struct CellMap {
   }
 };
 
-/// Every n-th text, as many as fit.
+/// The n for which every n-th text fits: texts need `room`, cells are `cell` wide.
 std::size_t stride(double room, double cell) {
   return std::max<std::size_t>(1, std::size_t(std::ceil(room / cell - 1e-9)));
 }
 
-/// All but the cells, which are drawn before.
+/// Draws the frame with its texts, after the cells.
 void draw_frame(Canvas& canvas, const CellMap& map) {
   const Box& box = map.box;
   canvas.rectangle(box, {0, 0, 0, 0}, {ink, 0.6});
@@ -64,7 +64,7 @@ constexpr double cell_width = 19.5, cell_height = 12, label_room = 21, gap = 4;
 constexpr double head_room = 12, foot_room = 24, map_room = 15, heading_gap = 30, title_room = 18,
                  legend_room = 34;
 
-/// 0.95, 30, 10^{−6}
+/// A number as text: 0.95, 30, 10^{−6}.
 std::string number(double value) {
   if (value != 0 && (std::abs(value) < 1e-2 || std::abs(value) >= 1e4)) {
     const double power = std::log10(std::abs(value));
@@ -99,7 +99,7 @@ std::vector<MethodPanel> panels_of(const std::vector<StabilityRow>& rows) {
   return panels;
 }
 
-/// Where everything goes: panels of a map next to one another, as many as fit.
+/// The position of a panel. Panels of a map are side by side, as many as fit.
 struct Place {
   const MethodPanel* panel;
   Point at;
@@ -112,7 +112,7 @@ std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double widt
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const MethodPanel& panel = panels[k];
     const bool first = k == 0 || panels[k - 1].map != panel.map;
-    // a map of one panel may be next to the one before
+    // maps of one panel may be side by side
     const bool fits = k > 0 && x + panel.width() + (first ? heading_gap : 0) <= width;
     const auto alone = [&](const std::string& map) {
       return std::ranges::count(panels, map, &MethodPanel::map) == 1;
@@ -133,7 +133,7 @@ std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double widt
 
 void draw_outcome(Canvas& canvas, const Box& box, RunOutcome outcome) {
   canvas.rectangle(box, outcome_colour(outcome), {white, 1});
-  // a sign each, legible without colours
+  // every outcome has a sign, which is legible without colours
   const Point m = box.middle();
   const double r = 0.22 * box.height;
   const Stroke stroke{record::silently_wrong(outcome) ? white : ink, 1};
@@ -184,7 +184,7 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
   for (const StabilityRow* cell : panel.cells)
     draw_outcome(canvas, map.cell(index(panel.x, cell->x), index(panel.y, cell->y)), cell->outcome);
   draw_frame(canvas, map);
-  // where theory puts the edge of a step over its limit
+  // a line at x = 1, the theoretical limit of a "step over"
   const auto beyond = panel.x.upper_bound(1.0);
   if (!panel.x_name.starts_with("step over") || beyond == panel.x.begin() ||
       beyond == panel.x.end())
@@ -193,7 +193,7 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
   canvas.line({x, map.box.y - 1}, {x, map.box.bottom() + 1}, {ink, 1.4, {3, 2}});
 }
 
-/// What a cell of the map of a sweep is of.
+/// The runs of one cell of a sweep's map.
 struct SweepCell {
   double sum = 0;
   int found = 0, runs = 0;
@@ -364,7 +364,7 @@ void draw_outcome_maps(Canvas& canvas, const Box& box, const std::vector<Stabili
                   {at.x + 4, at.y + 4}, {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
     draw_panel(canvas, *place.panel, {at.x, at.y + map_room});
   }
-  // what a user would notice above, what not below
+  // the first row of patches has the outcomes that a user would notice
   Patches patches{.row_width = box.width, .row_height = 15, .font_size = size};
   patches.draw = [&](std::size_t k, const Box& patch) {
     draw_outcome(canvas, patch, RunOutcome(k));

@@ -20,14 +20,14 @@ Eigen::VectorXd move_over_depth(const ColourOrigin& from, const record::Frame& f
   return (frame.nodes - from.first.nodes).colwise().norm() / from.depth_mm;
 }
 
-/// What is coloured, and as a bar says it.
+/// A quantity that is coloured.
 struct Quantity {
-  const char *label = "", *words = "";
-  bool cells = false;  // its values are the cells', not the nodes'
+  const char *label = "", *words = "";  // symbol with unit, and name, of the colour bar
+  bool cells = false;                   // whether it has values of cells; else of nodes
   bool may_be_missing = false;
-  double least_end = 0;     // below, round-off would have a colour
-  bool size = false;        // never below zero
-  bool from_least = false;  // what counts is the difference, not the distance from zero
+  double least_end = 0;     // smallest end of the scale, so that round-off is not coloured
+  bool size = false;        // whether it is never negative
+  bool from_least = false;  // whether the scale begins at the smallest value, not at zero
 };
 
 const Quantity& quantity_of(ColourBy by) {
@@ -49,8 +49,8 @@ const Quantity& quantity_of(ColourBy by) {
   return quantities.at(by);
 }
 
-constexpr double quantile = 0.9;  // of the cells or nodes lie within the scale
-constexpr double paling = 0.2;    // of a map for rods, which are thin lines on white
+constexpr double quantile = 0.9;  // fraction of the cells or nodes that are within the scale
+constexpr double paling = 0.2;    // ColourScale::start for rods, which are thin lines on white
 
 using Surveys = std::vector<const RunSummary*>;
 
@@ -64,14 +64,14 @@ Interval all_of(const Surveys& runs, ColourBy by) {
   return all;
 }
 
-// from zero to where most of the sizes lie, and as far to the other side of what has a sign, so
-// that a colour means one sign in all pictures
+// a colour bar from zero to the quantile of the magnitudes; for quantities with a sign symmetric,
+// so that a colour means one sign in all pictures
 ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   std::vector<double> most;
   for (const RunSummary* run : runs)
     most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
   const Interval all = all_of(runs, by);
-  // where rods break must be reported
+  // the largest stress must be within the scale
   const bool whole = by == ColourBy::stress || by == ColourBy::utilisation;
   ColourBar bar{.label = {}, .scale = symmetric_scale(most, whole ? 1 : quantile)};
   const Quantity& quantity = quantity_of(by);

@@ -12,7 +12,7 @@ namespace gridshell::render {
 
 namespace {
 
-/// How long the frames are shown: few of them longer, not a still film.
+/// Duration of the frames, s; at least four seconds, unless there are few frames.
 double seconds_of(const preset::Movie& timing) {
   constexpr double least_s = 4, longest_frame_s = 0.25;
   if (timing.seconds > 0) return timing.seconds;
@@ -20,7 +20,7 @@ double seconds_of(const preset::Movie& timing) {
                   std::min(least_s, longest_frame_s * timing.frames));
 }
 
-/// When every frame is shown, and how long the first and the last are shown.
+/// ffmpeg's filters for the times at which frames are shown.
 std::string timing_filters(const preset::Movie& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
@@ -39,14 +39,14 @@ std::string timing_filters(const preset::Movie& timing) {
   return filters;
 }
 
-/// What ends the chain, and how the result is written.
+/// ffmpeg's options for the format of the movie.
 std::vector<std::string> output_options(const std::string& kind) {
   const std::vector<std::string> tags{"-colorspace", "bt709", "-color_primaries", "bt709",
                                       "-color_trc",  "bt709", "-color_range",     "tv"};
   std::vector<std::string> options;
   if (kind == ".webm") options = {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-row-mt", "1"};
   if (kind == ".gif") return {"-loop", "0"};
-  // half the work of the usual preset for the same size, and as sharp at one step more quality
+  // this preset takes half the time of the default for the same size; crf 17 keeps it as sharp
   if (kind != ".webm")
     options = {"-c:v", "libx264", "-preset", "veryfast", "-crf", "17", "-movflags", "+faststart"};
   options.insert(options.end(), {"-pix_fmt", "yuv420p"});
@@ -54,7 +54,7 @@ std::vector<std::string> output_options(const std::string& kind) {
   return options;
 }
 
-/// ffmpeg with its first input, which is the frames.
+/// The arguments of ffmpeg; `input`: those of its first input, the frames.
 std::vector<std::string> arguments_of(const std::vector<std::string>& input,
                                       const std::filesystem::path& frames,
                                       const preset::Movie& timing,
@@ -73,7 +73,7 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& input,
   }
   chain += ";[" + last + "]pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,";
   chain += gif ? "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=none"
-               // from version 7 on ffmpeg writes what its filters know, not the options below
+               // from version 7 ffmpeg writes the tags of its filters, not the options below
                : "scale=out_color_matrix=bt709:out_range=tv,"
                  "setparams=color_primaries=bt709:color_trc=bt709";
   words.insert(words.end(), {"-filter_complex", chain});
@@ -82,7 +82,7 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& input,
   return words;
 }
 
-/// The error of ffmpeg, in the terms of who requested a movie.
+/// An error of ffmpeg with the files of the movie.
 Error reported(Error error, const std::filesystem::path& frames,
                const std::filesystem::path& movie) {
   if (error.fault == Fault::io)
@@ -98,10 +98,10 @@ Error reported(Error error, const std::filesystem::path& frames,
 std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
                                           const preset::Movie& timing,
                                           const std::filesystem::path& movie) {
-  // in the pattern a percent sign of the folder's own name is doubled
+  // in ffmpeg's pattern a percent sign of the folder's name is doubled
   std::string pattern;
   for (char c : frames.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
-  // ffmpeg takes what is before a colon for a protocol, and a leading dash for an option
+  // "file:", since ffmpeg reads text before a colon as a protocol and a leading dash as an option
   return arguments_of(
       {"-framerate", std::to_string(timing.fps), "-i", "file:" + pattern + "/frame_%05d.png"},
       frames, timing, movie);

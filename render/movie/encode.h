@@ -1,4 +1,4 @@
-// Frames to a movie, by ffmpeg where it is on the PATH.
+// Encoding of frames as a movie by ffmpeg, if it is on the PATH.
 #pragma once
 
 #include <filesystem>
@@ -16,41 +16,44 @@
 
 namespace gridshell::render {
 
-// How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_first_s,
-// hold_s, pace, and title_s of the card before all, title.png next to the folder `frames`.
+// The timing of a movie is given by these keys of [movie]: fps, frames, seconds, hold_first_s,
+// hold_s and pace. With title_s the movie begins with a card, title.png next to the folder
+// `frames`.
 
-/// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
-/// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which
-/// colours these are; .webm, VP9; .gif with a palette of its own. An odd size is padded by a pixel.
+/// The arguments of ffmpeg that make `movie` from `frames`/frame_%05d.png, in any current folder.
+/// The format is that of the extension: .mp4 is H.264 with 4:2:0 colours, which every player
+/// supports, and tags with the colour space; .webm is VP9; .gif has a palette of its own. An odd
+/// size is padded by a pixel.
 std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
                                           const preset::Movie& timing,
                                           const std::filesystem::path& movie);
 
-/// Words as one line that a POSIX shell reads back as the same words.
+/// Arguments as one line for a POSIX shell, quoted where necessary.
 std::string shell_line(const std::vector<std::string>& words);
 
-/// Where a program is on the PATH; empty if nowhere.
+/// The path of a program on the PATH; empty if there is none.
 std::filesystem::path find_program(const std::string& name);
 
-/// Runs ffmpeg on `frames` and puts `movie` in place once it is whole; nothing is made without
-/// ffmpeg. Errors: Fault::io with ffmpeg's last words when it failed, Fault::cancelled.
+/// Runs ffmpeg on `frames`; `movie` exists only when it is complete. Without ffmpeg nothing is
+/// made. Errors: Fault::io with ffmpeg's last message if it failed, Fault::cancelled.
 Result<void> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
                           const std::filesystem::path& movie, const Watch& watch);
 
-/// A movie that is made while its frames are drawn: the same file, to the bit, as encode_movie()
-/// makes of them afterwards.
+/// Encodes a movie while its frames are drawn. The file is equal to the bit to that of
+/// encode_movie().
 class MovieEncoder {
  public:
-  /// Starts ffmpeg for pictures of timing.size; a title card is next to `frames` already.
-  /// Nothing without ffmpeg. Errors: Fault::io when it cannot start.
+  /// Starts ffmpeg for pictures of timing.size; a title card must exist next to `frames` already.
+  /// Empty without ffmpeg. Errors: Fault::io if it cannot start.
   static Result<std::optional<MovieEncoder>> begin(const std::filesystem::path& frames,
                                                    const preset::Movie& timing,
                                                    const std::filesystem::path& movie);
 
-  /// The next frame. What goes wrong finish() says: the pictures themselves are to be kept.
+  /// Passes the next frame to ffmpeg. Errors are reported by finish(), so that the remaining frames
+  /// are drawn nevertheless.
   void put(const Image& picture, const Watch& watch);
 
-  /// Puts the movie in place once it is whole. Errors: as of encode_movie().
+  /// Waits for ffmpeg and gives the movie its final name. Errors: those of encode_movie().
   Result<void> finish(const Watch& watch);
 
  private:

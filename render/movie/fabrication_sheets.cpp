@@ -15,7 +15,7 @@ constexpr double wide = a4_width - 2 * margin, line = 12, between = 8;
 const Colour red{0.7f, 0.1f, 0.1f, 1}, grey{0.45f, 0.45f, 0.48f, 1};
 const TextStyle usual{.size = 8.5};
 
-/// How text is broken, before there is a sheet to draw it on.
+/// Breaks text into lines before a sheet exists.
 std::vector<std::string> lines_of(const std::string& text, double width, const TextStyle& style) {
   std::vector<std::string> lines;
   draw_picture(8, 8, 1, white, [&](Canvas& canvas) { lines = canvas.wrapped(text, width, style); });
@@ -50,7 +50,7 @@ using exports::Pin;
 
 const Colour blue{0.1f, 0.3f, 0.65f, 1};
 
-/// Over the page, smaller where it would not fit.
+/// Writes a page's title, smaller if it would not fit.
 void draw_title(Canvas& canvas, const std::string& title, double size) {
   canvas.text(plain(title), {margin, margin},
               canvas.fitted(plain(title), a4_width - 2 * margin, {size, ink, true}));
@@ -64,7 +64,7 @@ void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box)
   }
   const PlanView fit(box.inset(18), corners);
   canvas.polyline(fit.line(work.original_boundary), {red, 0.8}, true);
-  // names where they do not touch one another
+  // names as large as fit without touching one another
   const double size = std::clamp(0.6 * work.spacing_mm * fit.scale, 3.0, 7.0);
   for (const CutRod& rod : work.rods) {
     Eigen::Vector2d from = rod.begin;
@@ -103,7 +103,7 @@ std::string marks_of(const CutRod& rod) {
   return marks;
 }
 
-/// The rod as it is marked from its other end.
+/// The rod with its marks measured from the other end.
 CutRod turned(CutRod rod) {
   for (auto* marks : {&rod.joint_marks_mm, &rod.splices_mm}) {
     std::ranges::reverse(*marks);
@@ -112,7 +112,8 @@ CutRod turned(CutRod rod) {
   return rod;
 }
 
-/// Number, names, length and marks of equal rods; those that are turned are marked so.
+/// Number, names, length and marks of equal rods; names of rods that are measured from their other
+/// end have a *.
 std::vector<TableRow> cut_list(const FabricationPlan& work) {
   std::vector<TableRow> rows;
   std::vector<int> numbers;
@@ -152,7 +153,7 @@ std::string short_legs(const FabricationPlan& work) {
 std::vector<std::string> steps(const FabricationPlan& work) {
   const auto ring_pins = std::ranges::count(work.pins, true, &Pin::in_ring);
   const auto far_pins = long(work.pins.size()) - ring_pins;
-  constexpr double largest_print_mm = 3000;  // of a sheet on a table or a floor
+  constexpr double largest_print_mm = 3000;  // largest footprint that is printed at full size
   const double extent =
       (work.original_boundary.rowwise().maxCoeff() - work.original_boundary.rowwise().minCoeff())
           .maxCoeff();
@@ -290,7 +291,7 @@ std::vector<std::vector<std::size_t>> Sheets::laid_out() const {
     used += items_[k].height;
   };
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    // what is not to be the last comes with what it leads to
+    // an item that must be with the next one needs the height of both
     double height = items_[k].height;
     for (std::size_t n = k; items_[n].with_next && n + 1 < items_.size(); ++n)
       height += items_[n + 1].height;

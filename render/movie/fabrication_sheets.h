@@ -1,4 +1,4 @@
-// Sheets of paper for the workshop: what to cut, and how it goes together.
+// Sheets of paper as PDF: the cut list and the assembly sheet for the workshop, and reports.
 #pragma once
 
 #include <functional>
@@ -11,53 +11,54 @@
 
 namespace gridshell::render {
 
-/// One column of a table: how wide, points; 0: what is left, its text broken into lines. Numbers
-/// are at the right.
+/// One column of a table.
 struct TableColumn {
-  std::string title;  ///< marked text
-  double width = 0;
+  std::string title;  ///< text with markup
+  double width = 0;   ///< points; 0: the remaining width, with the text broken into lines
   AlignX align = AlignX::right;
 };
 
-/// A line of a table; plain text. Red where `stands_out`.
+/// A row of a table, in plain text; red if `stands_out`.
 struct TableRow {
   std::vector<std::string> cells;
   bool stands_out = false;
 };
 
-/// Sheets of A4 filled from the top, as one PDF: headings, text, tables, pictures and plots; what
-/// does not fit is on the next sheet.
+/// A PDF of A4 sheets, filled from the top with headings, text, tables, pictures and plots. An item
+/// that does not fit begins the next sheet.
 class Sheets {
  public:
-  /// `title` is at the foot of every sheet, with its number, and in the PDF's data.
+  /// `title` is at the foot of every sheet, with the sheet's number, and in the PDF's metadata.
   explicit Sheets(std::string title) : title_(std::move(title)) {}
 
-  /// The heading of the complete text, or of what follows.
+  /// Adds a heading of `size` points; the next item is on the same sheet.
   void heading(const std::string& plain_text, double size = 11);
-  /// Plain text, broken into lines.
+  /// Adds plain text, broken into lines.
   void text(const std::string& plain_text);
-  /// Its head is repeated on each sheet on which it continues.
+  /// Adds a table, whose head is repeated on each sheet on which it continues.
   void table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows);
-  /// What something is, and how much, two pairs a line.
+  /// Adds pairs of a name and a value, two per line.
   void values(const std::vector<std::pair<std::string, std::string>>& pairs);
-  /// Side by side, together as wide as the sheet, of the first one's proportions.
+  /// Adds pictures side by side, together as wide as the sheet, all in the first one's proportions.
   void pictures(const std::vector<Image>& images);
+  /// Adds a plot of `height` points.
   void plot(const Plot& plot, double height = 190);
-  /// What follows begins on a sheet of its own.
+  /// Begins the next sheet.
   void next_sheet();
 
+  /// The sheets as the bytes of a PDF.
   std::string pdf() const;
 
  private:
-  /// What extends across the sheet and is not parted.
+  /// A piece across the sheet that is not divided.
   struct Item {
-    double height = 0;
+    double height = 0;  ///< points
     std::function<void(Canvas& canvas, double y)> draw;
-    bool with_next = false;   ///< never the last on its sheet
-    std::size_t head = none;  ///< the item that comes before it at the top of a sheet
+    bool with_next = false;   ///< on the same sheet as the next item
+    std::size_t head = none;  ///< the item that is repeated above it at the top of a sheet
   };
   static constexpr std::size_t none = std::size_t(-1);
-  static constexpr double break_here = 1e9;  ///< height of what ends a sheet
+  static constexpr double break_here = 1e9;  ///< height of an item that ends its sheet
 
   void add(Item item) { items_.push_back(std::move(item)); }
   std::vector<std::vector<std::size_t>> laid_out() const;
@@ -66,15 +67,18 @@ class Sheets {
   std::vector<Item> items_;
 };
 
-/// Rods of one length and with the same marks, from either end, in one row with their number;
-/// `cut_list_text`: its cells.
+// A cut list has one row for all rods of one length with the same marks, from either end: their
+// number, names, length and marks.
+
+/// The rows of the cut list as text, one per line.
 std::string cut_list_text(const exports::FabricationPlan& work);
+/// Adds the cut list as a table.
 void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);
-/// Writes the sheets as a PDF.
+/// The cut list as the bytes of a PDF.
 std::string cut_list_pdf(const exports::FabricationPlan& work);
 
-/// One page of A4: the footprint and the plate in small, what is needed, the steps, and the legs
-/// that are too short to build.
+/// The assembly sheet as the bytes of a PDF of one A4 page: small drawings of the footprint and the
+/// plate, the steps, and the legs that are too short to build.
 std::string assembly_sheet_pdf(const exports::FabricationPlan& work);
 
 }  // namespace gridshell::render

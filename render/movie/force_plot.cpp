@@ -10,7 +10,7 @@
 namespace gridshell::render {
 namespace {
 
-/// Where a frame says that the shell snapped on the path to it, mm: "snap at depth 66.180 mm".
+/// The depth (mm) of a snap in the text of a frame's event: "snap at depth 66.180 mm".
 std::optional<double> depth_of_snap(const record::Frame& frame) {
   const std::string begin = "snap at depth ";
   if (!frame.event.starts_with(begin)) return std::nullopt;
@@ -18,14 +18,14 @@ std::optional<double> depth_of_snap(const record::Frame& frame) {
   return parse_number<double>(number.substr(0, number.find(' ')));
 }
 
-/// Straight down at the depth of each snap, from where the path reached it to where it continued:
-/// on both sides as far from the next frame as force and stiffness there say.
+/// Vertical lines at the depth of each snap, from the force before to the force after it. Both
+/// forces are extrapolated from the nearest frames by their stiffness.
 Series snaps_of(const Series& pushed, const record::Trajectory& run) {
   Series snaps = line_series("", pushed.colour, 1, {3, 2});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
     const record::Frame after = run.frames[k];
     if (!after.event.starts_with("snap")) continue;
-    // what moved in time in between has no force
+    // frames of a motion in time have no force
     std::size_t at = k - 1;
     while (at > 0 && !std::isfinite(pushed.y[at])) --at;
     const record::Frame before = run.frames[at];
@@ -43,7 +43,7 @@ Series snaps_of(const Series& pushed, const record::Trajectory& run) {
   return snaps;
 }
 
-/// The pieces of a line on which the state is not stable.
+/// The pieces of the line between unstable states.
 Series unstable_of(const Series& pushed, const record::Trajectory& run) {
   Series pieces = line_series("", pushed.colour, pushed.line_width, {1.2, 1.5});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
@@ -57,8 +57,7 @@ Series unstable_of(const Series& pushed, const record::Trajectory& run) {
   return pieces;
 }
 
-/// A line that goes from state to state has a gap where one snapped to the next, and where a dashed
-/// one shows states that are not stable.
+/// Interrupts the line at snaps and at unstable states, which have lines of their own.
 void part_at_snaps(Series& pushed, const record::Trajectory& run) {
   for (std::size_t k = run.frames.size(); k-- > 1;)
     if ((run.frames[k].event.starts_with("snap") ||
@@ -69,9 +68,9 @@ void part_at_snaps(Series& pushed, const record::Trajectory& run) {
     }
 }
 
-/// Whether an error would be visible compared with the line of the forces.
+/// Whether errors of the forces are larger than the width of the line.
 bool errors_seen(const std::vector<NamedRun>& runs) {
-  constexpr double line = 0.01;  // a line's width, of the axis
+  constexpr double line = 0.01;  // width of a line over the length of the axis
   double force = 0, error = 0;
   for (const NamedRun& one : runs)
     for (const record::Frame& frame : one.run->frames) {
@@ -81,7 +80,8 @@ bool errors_seen(const std::vector<NamedRun>& runs) {
   return error > line * force;
 }
 
-/// The force with its error on either side, a band from snap to snap; none where no error is known.
+/// The force plus and minus its error as bands from snap to snap; none where the error is not
+/// known.
 std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
   std::vector<Band> bands;
   colour.a = 0.25f;
@@ -109,7 +109,7 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   const bool banded = errors_seen(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
-    // of many frames the line itself is what they lie on
+    // with many frames there are no markers, which would cover the line
     constexpr std::size_t most_marked = 24;
     if (runs[k].run->frames.size() <= most_marked) series.marker = series_marker(k);
     for (const record::Frame& frame : runs[k].run->frames)

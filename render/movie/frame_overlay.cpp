@@ -11,7 +11,7 @@
 namespace gridshell::render {
 namespace {
 
-// the title in at most two lines; what is longer still is shortened
+// the title in at most two lines, which are shortened if necessary
 std::vector<std::string> lines_of_title(const MovieStyle& style, double width, double font_size) {
   std::vector<std::string> lines;
   draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
@@ -23,7 +23,7 @@ std::vector<std::string> lines_of_title(const MovieStyle& style, double width, d
   return lines;
 }
 
-// cuts a strip off one side of `box` and returns it
+// these cut a strip off one side of `box` and return it
 Box cut_top(Box& box, double height) {
   const Box strip{box.x, box.y, box.width, height};
   box.y += height;
@@ -61,10 +61,10 @@ bool reached(const std::vector<Mark>& marks, MarkKind kind, int at) {
                              [&](const Mark& mark) { return mark.kind == kind && mark.at <= at; });
 }
 
-// a coloured length for a state that lasts, a sign for a moment
+// draws a coloured length for a lasting state and a sign for an event
 void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks,
                 const std::vector<double>& places, int at, double size) {
-  // between frames too
+  // position of a frame, also between two frames
   const auto place = [&](double frame) {
     const double k = std::clamp(frame, 0.0, double(places.size() - 1));
     const std::size_t before = std::size_t(k), after = std::min(before + 1, places.size() - 1);
@@ -87,12 +87,12 @@ void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks,
 
 constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, load_ink{0.05f, 0.05f, 0.06f, 1};
 
-/// "950 N", "4.25 kN"
+/// A force as text: "950 N", "4.25 kN".
 std::string force_text(double N) {
   return N >= 1000 ? fmt::format("{:.3g} kN", 1e-3 * N) : fmt::format("{:.3g} N", N);
 }
 
-/// A spring from `from` as a zigzag of so many turns, `half_width` to either side.
+/// Adds a spring from `from` to `from` + `stretch` as a zigzag, `half_width` to either side.
 void add_spring(const Eigen::Vector3d& from, const Eigen::Vector3d& stretch, double half_width,
                 GhostRods& springs) {
   constexpr int turns = 4;
@@ -117,7 +117,7 @@ TextStyle title_style(const MovieStyle& style, double font_size) {
 FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNotes notes) {
   FrameLayout layout;
   const double w = style.width(), h = style.height();
-  // readable down to small pictures, and no wider than a tall one allows
+  // readable in small pictures, and not too wide for a tall one
   const double em = layout.font_size =
       style.font_scale * std::max(7.5, 0.024 * std::min(h, 0.72 * w));
   const double margin = std::min(0.9 * em, 0.06 * std::min(w, h)), line = 1.5 * em;
@@ -125,14 +125,14 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNo
   const bool captions = style.captions && rest.height > 10 * line && rest.width > 14 * em;
   const bool wide = w >= 1.15 * h;
 
-  // legends first: a column on the right or a strip below
+  // legends are in a column on the right or a strip below
   const double side = std::min(0.3 * h, 0.28 * w);
   const bool inset = style.inset && side > 4 * em;
   const double bar_wide = bar ? colour_bar_width(*bar, 0.95 * em) : 0;
   const double bar_tall = wide ? std::min(0.42 * h, 20 * em) : side;
   bool with_bar = bar && bar_tall > 5 * line && bar_wide < 0.4 * rest.width;
   if (wide && style.bins && 0.42 * w > 16 * em && rest.height > 16 * em) {
-    // a plot above, the small legends next to one another below it
+    // the plot is above, the small legends are side by side below it
     Box column = cut_right(rest, 0.42 * w);
     cut_right(rest, margin);
     layout.plot = cut_top(column, 0.62 * column.height);
@@ -170,7 +170,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNo
     layout.state = cut_top(rest, line);
   }
   if (!captions && style.heading) {
-    // over the colour bar too, but not over a plot
+    // the heading is also above the colour bar, but not above a plot
     const double right = layout.plot.empty() ? w : rest.right(), x = still_margin * em;
     layout.title_lines = lines_of_title(style, right - 2 * x, em);
     const double lines = std::max(1.0, double(layout.title_lines.size()));
@@ -220,8 +220,8 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
 void put_supports(const record::Layout& layout, const record::Frame& frame,
                   const std::set<int>& supported, const Appearance& look, Drawing& drawing) {
   const double size = 1.3 * drawing.joint_diameter_mm;
-  // those with a reaction, as ends may be free; in a flat grid without any all that the ring
-  // constrains
+  // supported are the ends with a reaction, since ends may be free; in a flat grid without
+  // reactions all ends at the boundary
   const std::set<int> ends(layout.edge_points.begin(), layout.edge_points.end());
   std::set<int> held;
   std::ranges::set_intersection(ends, supported, std::inserter(held, held.end()));
@@ -232,7 +232,7 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     const auto at = std::ranges::find(layout.supports, node) - layout.supports.begin();
     held.erase(node);
     if (at >= frame.reactions_N.cols()) continue;
-    // the support is where the spring pulls with the reaction
+    // the stretch of the spring is that at which its force is the reaction
     const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
     const Eigen::Vector3d stretch =
         (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
@@ -301,7 +301,7 @@ std::string contact_caption(const record::Frame& frame) {
 }
 
 std::string event_caption(const record::Frame& frame) {
-  // how many directions it would leave in is for those who read its table
+  // the number of negative pivots in "unstable: ..." is only in the table
   const bool counted = frame.event.empty() || frame.event.starts_with("unstable: ");
   if (!counted) return frame.event;
   return frame.negative_pivots > 0 ? "unstable equilibrium" : contact_caption(frame);
@@ -310,9 +310,9 @@ std::string event_caption(const record::Frame& frame) {
 void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
                    const ProgressAxis& axis, int at, double font_size) {
   const int frames = int(axis.places.size());
-  // what is next to the bar over the complete run decides its length, so that it does not move
+  // the bar leaves room for all names of the complete run, so that its length does not change
   const double size = 0.8 * font_size, gap = 0.5 * size;
-  const double apart = 6 * gap;  // of the bar and its signs from those next to it
+  const double apart = 6 * gap;  // distance of the names from the bar
   double words = apart - 2 * gap;
   for (const Sign& sign : signs)
     if (reached(marks, sign.kind, frames))
@@ -365,7 +365,7 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
     canvas.polygon(corners, cell_colours[c]);
   }
   for (const std::vector<int>& rod : layout.rods) {
-    // nodes closer than a pixel and a half add nothing but time
+    // nodes nearer than a pixel and a half are left out, which saves time
     std::vector<Point> line;
     for (std::size_t k = 0; k < rod.size(); ++k) {
       const Point p = place(frame.nodes.col(rod[k]));

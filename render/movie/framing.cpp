@@ -24,21 +24,21 @@ void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
   const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
   middle_ = (low + high) / 2;
   half_extent_mm_ = std::max(1e-6, (high - low).norm());
-  // size and shift act on each other through perspective, weakly: a few rounds settle both
+  // size and shift depend on each other weakly, by perspective, so that a few rounds converge
   for (int round = 0; round < 12; ++round) {
     const Box seen = union_of_views(points);
     const double fit = std::max(seen.width / panel.width, seen.height / panel.height);
     const double mm = 1 / pixels_per_mm();
     right_mm_ += (seen.middle().x - width_ / 2.0) * mm;
     up_mm_ -= (seen.middle().y - height_ / 2.0) * mm;
-    // what is in the picture's middle now belongs in the panel's
+    // the middle of the points, now in that of the picture, is moved to that of the panel
     half_extent_mm_ *= fit;
     right_mm_ -= (panel.middle().x - width_ / 2.0) / pixels_per_mm();
     up_mm_ += (panel.middle().y - height_ / 2.0) / pixels_per_mm();
   }
 }
 
-// what is in the panel's middle, the target if there is one, stays there
+// applies target and zoom of the style about the middle of the panel
 void Framing::look_at(const MovieStyle& style, const Box& panel) {
   const double x = panel.middle().x - width_ / 2.0, y = panel.middle().y - height_ / 2.0;
   right_mm_ += x / pixels_per_mm();
@@ -76,7 +76,7 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
     low = low.min(ndc.rowwise().minCoeff());
     high = high.max(ndc.rowwise().maxCoeff());
   }
-  // normalised device coordinates have y up, pixels have it down
+  // y is up in normalised device coordinates and down in pixels
   return {(0.5 + 0.5 * low.x()) * width_, (0.5 - 0.5 * high.y()) * height_,
           std::max(1e-9, 0.5 * (high.x() - low.x()) * width_),
           std::max(1e-9, 0.5 * (high.y() - low.y()) * height_)};

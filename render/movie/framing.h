@@ -1,5 +1,5 @@
-// A camera that keeps a complete run in its panel: one target, one size, fixed over the movie,
-// while it slowly turns.
+// The camera of a movie: its target and size are fixed, so that a complete run is in its panel
+// while the camera slowly turns.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,15 +13,16 @@ namespace gridshell::render {
 /// The camera over a movie.
 class Framing {
  public:
-  /// At zoom 1 all points (3 x n, mm) lie within `panel` (pixels of a width x height picture) at
-  /// every moment of the turn, as large as possible. Zoom and target are about the panel's middle.
+  /// At zoom 1 all points (3 x n, mm) are within `panel` (pixels of the style's picture) at every
+  /// moment of the turn, as large as possible. A target of the style is in the middle of the panel,
+  /// and so is the centre of the zoom.
   Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel);
 
-  /// `moment` from 0, the first frame, to 1, the last
+  /// the camera at a moment from 0, the first frame, to 1, the last
   Camera camera(double moment) const;
-  /// in the plane through the target that faces the camera
+  /// scale in the plane through the target that faces the camera
   double pixels_per_mm() const { return height_ / (2 * half_extent_mm_); }
-  /// what all points cover over the whole turn, in pixels
+  /// the box that contains all points during the complete turn, in pixels
   const Box& seen() const { return seen_; }
 
  private:
@@ -33,7 +34,7 @@ class Framing {
   int width_, height_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   double half_extent_mm_ = 1;
-  double right_mm_ = 0, up_mm_ = 0;  ///< from the middle to the target, as the camera sees it
+  double right_mm_ = 0, up_mm_ = 0;  ///< from middle_ to the target, along the camera's axes
   Box seen_;
 };
 

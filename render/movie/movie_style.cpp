@@ -26,7 +26,7 @@ namespace {
 void choose(Colour& colour, const std::string& request) {
   if (request == "transparent")
     colour.a = 0;
-  else if (!request.empty())  // "#rrggbb", which the preset's reader has looked at
+  else if (!request.empty())  // "#rrggbb", validated by the preset's reader
     colour = hex_colour(std::strtol(request.c_str() + 1, nullptr, 16));
 }
 void choose(double& width, double request) {
@@ -39,7 +39,7 @@ void choose(bool& flag, preset::Visibility request) {
 ViewDirection direction_of(const preset::Movie& movie) {
   switch (movie.view) {
     case preset::View::free:
-    case preset::View::push:  // the layout knows where to (Stage)
+    case preset::View::push:  // set by Stage, from the layout
       break;
     case preset::View::front:
       return view_front;
@@ -53,8 +53,8 @@ ViewDirection direction_of(const preset::Movie& movie) {
   return {movie.azimuth_deg, movie.elevation_deg};
 }
 
-/// Whether the boundary goes anywhere: supports of a network may stay where they are drawn, and the
-/// line through them would mean nothing then.
+/// Whether the boundary moves. The supports of a network may be fixed, and the line through them
+/// then has no meaning.
 bool boundary_moves(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::network) return true;
   const double scale = preset.actuation.scale;
@@ -66,7 +66,7 @@ bool boundary_moves(const preset::Preset& preset) {
          });
 }
 
-// in as few lines as the width takes, all about equally long
+// the text in as few lines as possible, all of about equal length
 std::string in_lines(const Canvas& canvas, const std::string& text, double width,
                      const TextStyle& style) {
   auto lines = canvas.wrapped(text, width, style);
@@ -85,7 +85,8 @@ std::string in_lines(const Canvas& canvas, const std::string& text, double width
   return all;
 }
 
-/// "*n* = 12, *d* = 20 mm, *R*_{o} = 126 mm, *δ*_{0} = 12 mm, computed by gridshell 0.2.0"
+/// The parameters on the title card: "*n* = 12, *d* = 20 mm, *R*_{o} = 126 mm, computed by
+/// gridshell 0.2.0".
 std::string parameters_of(const preset::Preset& preset) {
   std::string text;
   const auto add = [&](const char* name, double value, const char* unit) {
@@ -104,7 +105,7 @@ std::string parameters_of(const preset::Preset& preset) {
 
 constexpr Colour dark_paper{0.075f, 0.085f, 0.1f, 1};
 
-/// The theme, and over it what the style says.
+/// The appearance of the theme, changed by the other keys of the style.
 Appearance appearance_of(const preset::Style& style) {
   Appearance look = style.theme == preset::Theme::paper ? paper_appearance() : Appearance{};
   if (style.theme == preset::Theme::dark) look.background = dark_paper;
@@ -116,7 +117,7 @@ Appearance appearance_of(const preset::Style& style) {
   choose(look.ring, style.ring_colour);
   choose(look.background, style.background);
   if (is_dark(look.background)) {
-    // what was not chosen is seen on it, and on cells that are nearly white
+    // colours that were not chosen are visible on it and on nearly white cells
     for (const auto& [colour, request] : {std::pair(&look.rod, &style.rod_colour),
                                           {&look.joint, &style.joint_colour},
                                           {&look.ring, &style.ring_colour}})

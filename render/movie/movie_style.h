@@ -1,4 +1,4 @@
-// How a run is shown: everything a user may choose about a movie or a still.
+// The style of a movie or a still: everything that a user may choose about the picture of a run.
 #pragma once
 
 #include <string>
@@ -16,59 +16,58 @@ using preset::ColourBy;
 using preset::Pace;
 using preset::Quality;
 
-/// What things look like, the theme's choices and the user's in one.
+/// Colours, widths and visibility of what is drawn, from the theme and the user's keys.
 struct Appearance {
-  double rod_mm = 0, joint_mm = 3, ring_mm = 1.4;  ///< widths as drawn, no less than a pixel
+  /// widths as drawn, but at least about a pixel; rod_mm 0: the rods' own; joint_mm 0: no joints
+  double rod_mm = 0, joint_mm = 3, ring_mm = 1.4;
   Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.52f, 0.53f, 0.55f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
-      background{1, 1, 1, 1};  ///< a background of alpha 0 stays out of the picture
-  ColourMap map = nullptr;     ///< null: by the values
-  std::vector<double> range;   ///< (low, high) of the colours; empty: by the values
+      background{1, 1, 1, 1};  ///< alpha 0: a transparent background
+  ColourMap map = nullptr;     ///< null: that of the quantity
+  std::vector<double> range;   ///< (low, high) of the colours; empty: that of the values
   bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true,
        ghost = true, supports = true;
   bool clamped = false;                             ///< the supports prescribe directions
   double lath_width_mm = 0, lath_thickness_mm = 0;  ///< of rods whose layout has none; 0: round
-  double sheen = 1;                                 ///< of rods and joints; 0: ink
-  double far_fade = 0.25;                           ///< of the far side, into the background
-  bool letters = true;                              ///< of the panels of a figure
+  double sheen = 1;                                 ///< of rods and joints; 0: flat ink
+  double far_fade = 0.25;                           ///< fading of the far side to the background
+  bool letters = true;                              ///< whether panels of a figure have letters
 };
 
-/// White, with black rods: as in the paper's figures.
+/// The theme of the paper's figures: black rods on white.
 Appearance paper_appearance();
 
-/// What the preset says of movies (of stills the quality is that of figures), and what it says
-/// elsewhere. Standard views are in azimuth and elevation.
+/// The keys of [movie] (for stills with the quality of [figure]), and other keys that pictures
+/// need. A standard view is given by azimuth and elevation.
 struct MovieStyle : preset::Movie {
-  bool legends = true;           ///< the colour bar
-  bool heading = false;          ///< room above for two lines of a still
+  bool legends = true;           ///< whether there is a colour bar
+  bool heading = false;          ///< whether there is room above for the heading of a still
   double scale_bar_mm = 0;       ///< 0: none
-  std::string title = {};        ///< shown as it is
-  std::string source = {};       ///< figure or movie that it follows, on the title card
-  std::string description = {};  ///< what is shown and what moves, there too
-  std::string parameters = {};   ///< the shell's numbers and the program, there too, marked text
+  std::string title = {};        ///< plain text
+  std::string source = {};       ///< published figure or movie that the run follows; title card
+  std::string description = {};  ///< of what is shown; title card
+  std::string parameters = {};   ///< numbers of the shell, and the program; title card; markup
   Print print = {};              ///< of figures
-  bool vector = false;           ///< stills as lines too
-  double font_scale = 1;         ///< of all text
+  bool vector = false;           ///< whether stills are also written as lines
+  double font_scale = 1;         ///< factor of the size of all text
   Appearance look = {};
 
   int width() const { return size[0]; }
   int height() const { return size[1]; }
 };
 
-/// How the preset wants its run shown as a movie, or as the stills of a figure in the size of
-/// print.
+/// The style of a preset's movie, and of its stills in the size of print.
 MovieStyle movie_style(const preset::Preset& preset);
 MovieStyle figure_style(const preset::Preset& preset);
 
-/// Draft: no shadow; movie: with soft shadow; figure: many passes with jittered light. A sample a
-/// pixel is enough: what is thin knows how much of it is covered.
+/// The effort of a quality: draft has no shadow; movie a soft shadow and four samples per pixel;
+/// figure many passes with jittered light, so that one sample per pixel is enough.
 DrawQuality draw_quality(Quality quality);
-/// The same colour with the contrast that the look has.
+/// The effort of the style's quality; no shadow if the style has none.
 DrawQuality draw_quality(const MovieStyle& style);
 
-// What is before a movie: its title and what it follows.
-
-/// A card of the movie's size with its title and, where there are any, its description and source
-/// below. Long titles are set in several lines, and smaller until they fit.
+/// The title card before a movie, of the movie's size, with its title and, if there are any,
+/// description, parameters and source below. Long titles have several lines and are set smaller
+/// until they fit.
 Image title_card(const MovieStyle& style);
 
 }  // namespace gridshell::render

@@ -19,7 +19,7 @@ Worker::Worker() {
   try {
     thread_ = std::thread([this] { loop(); });
   } catch (const std::system_error&) {
-    // the caller that begins a job runs it
+    // without a thread begin() runs the job itself
   }
 }
 
@@ -101,7 +101,7 @@ Result<void> FrameWriter::check() {
 
 namespace {
 
-/// A picture, and what is still to be drawn over it while the next one is made.
+/// A picture, and the function that draws captions over it while the next picture is rendered.
 struct DrawnFrame {
   Image picture;
   DrawOverPicture over = {};
@@ -119,7 +119,7 @@ Result<void> write_frames(int count, const DrawFrame& draw, const std::filesyste
   return writer.finish();
 }
 
-// a run's part of the frame has no text of its own
+// the style of one run's part of the picture, without text of its own
 MovieStyle without_captions(MovieStyle style) {
   style.captions = style.inset = style.bins = style.legends = false;
   style.scale_bar_mm = 0;
@@ -146,7 +146,7 @@ class SideBySideMovie {
     part.size = {
         std::max(16, int((style.width() - legend_ - 2 * em_) / columns_)),
         std::max(16, int((style.height() - title() - last_line()) / rows - above() - below()))};
-    // shells are about as high as wide: what is left below shows the forces of pushes
+    // shells are about as high as wide; the remaining height shows the forces of pushes
     const int high = int(0.92 * part.size[0]);
     const bool pushed = std::ranges::any_of(
         runs, [](const NamedRun& one) { return std::isfinite(one.run->frames.back().force_N); });
@@ -162,7 +162,7 @@ class SideBySideMovie {
     for (std::size_t k = 0; k < runs.size(); ++k)
       stages_.push_back(
           std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
-    // one bar for all that have the same path, with nothing on it that is one's own
+    // one timeline for all runs if they have the same axis and no marks
     const ProgressAxis& first = stages_.front()->progress();
     one_bar_ = std::ranges::all_of(stages_, [&](const auto& stage) {
       const ProgressAxis& axis = stage->progress();
@@ -196,12 +196,12 @@ class SideBySideMovie {
  private:
   static constexpr int in_one_row = 3;
 
-  // heights: of the title and the last line, and in each row above and below the parts
+  // heights of the title, of the last line, and of the texts above and below each row of parts
   double title() const { return style_.captions ? 2.4 * em_ : 0; }
   double last_line() const { return style_.captions ? 2 * em_ : 0; }
   double above() const { return style_.captions ? 3.8 * em_ : 0; }
   double below() const { return style_.captions ? 2.6 * em_ : 0; }
-  /// The forces over the depths, and where the shells are on them.
+  /// Draws the forces over the depths, with a mark for the current state of each run.
   void draw_forces(Canvas& canvas, int index) const {
     Plot plot = forces_;
     for (std::size_t k = 0; k < runs_.size(); ++k) {
@@ -237,7 +237,7 @@ class SideBySideMovie {
     text.bold = false;
     std::string state;
     for (const std::string& caption : state_captions(shown)) {
-      // the height is that of the whole shell: of a push the two before say more
+      // captions in the order of their importance, as many as fit
       const std::string longer = state.empty() ? caption : state + "    " + caption;
       if (canvas.measure(longer, text).width <= width) state = longer;
     }

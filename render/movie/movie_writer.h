@@ -1,4 +1,4 @@
-// A run to a folder of numbered pictures.
+// Frames of a run, or of several runs side by side, as a folder of numbered pictures.
 #pragma once
 
 #include <condition_variable>
@@ -24,8 +24,8 @@
 
 namespace gridshell::render {
 
-/// Does one job after the other on one thread of its own, which keeps what libraries remember of a
-/// thread; where no thread is to be had, on the one that asks.
+/// Runs jobs one after another on a thread of its own, always the same, since libraries cache data
+/// per thread. If no thread can be started, jobs run on the caller's.
 class Worker {
  public:
   using Job = std::function<Result<void>()>;
@@ -36,10 +36,10 @@ class Worker {
   /// Waits for the running job.
   ~Worker();
 
-  /// Begins a job; the one before has been waited for.
+  /// Begins a job; wait() must have been called for the one before.
   void begin(Job job);
-  /// How the running job ended, once it has; nothing was to be done: well. What it threw is
-  /// thrown here.
+  /// Waits for the running job and returns its result, success if there is none. An exception of
+  /// the job is thrown by wait().
   Result<void> wait();
 
  private:
@@ -48,40 +48,38 @@ class Worker {
   std::mutex mutex_;
   std::condition_variable changed_;
   Job job_;                    // null: none is running
-  Result<void> ended_;         // how the last one did
-  std::exception_ptr thrown_;  // by it
-  bool over_ = false;          // no more will come
+  Result<void> ended_;         // result of the last job
+  std::exception_ptr thrown_;  // exception of the last job
+  bool over_ = false;          // no more jobs follow
   std::thread thread_;
 };
 
-// Pictures to numbered files, written while the next are drawn.
-
-/// "frame_00000.png"
+/// File name of a frame: "frame_00000.png".
 std::string frame_name(int index);
 
-/// Called with each frame in turn once it is on the disk, on the thread that writes.
+/// Called with each frame, in order, after it was written, on the thread that writes.
 using FrameCallback = std::function<void(int index, const Image& picture)>;
-/// What is still to be drawn over a picture.
+/// Draws captions and legends over a picture.
 using DrawOverPicture = std::function<void(Image& picture)>;
 
-/// Writes frame_00000.png ... into a folder: one picture is finished, compressed and handed on
-/// while the next is drawn. Every file is whole or absent. Progress of `watch` grows with what
-/// is on the disk, to 1.
+/// Writes frame_00000.png ... into a folder: one picture gets its captions, is compressed and
+/// written while the next is drawn. Every file is complete or absent. The progress of `watch` is
+/// the fraction of frames that are written.
 class FrameWriter {
  public:
-  /// The folder exists; `watch` outlives the writer.
+  /// The folder must exist; `watch` must outlive the writer.
   FrameWriter(std::filesystem::path folder, int count, Watch& watch, FrameCallback on_frame = {})
       : folder_(std::move(folder)), count_(count), watch_(watch), on_frame_(std::move(on_frame)) {}
 
-  /// Takes the next picture, once the one before is on the disk; `over` is done to it first, and
-  /// owns what it needs. Errors: those of write_png for the one before; Fault::cancelled, with
-  /// which nothing more is written.
+  /// Waits for the picture before and begins to write the next one, after `over` (which owns its
+  /// data) was called on it. Errors: those of write_png for the picture before; Fault::cancelled,
+  /// after which nothing more is written.
   Result<void> put(Image picture, DrawOverPicture over = {});
 
-  /// Waits for the last one.
+  /// Waits for the last picture. Errors: those of write_png.
   Result<void> finish();
 
-  /// Fault::cancelled once the watch is, with how many frames there are.
+  /// Errors: Fault::cancelled, with the number of frames written, once the watch is cancelled.
   Result<void> check();
 
  private:
@@ -90,26 +88,25 @@ class FrameWriter {
   Watch& watch_;
   FrameCallback on_frame_;
   int begun_ = 0, written_ = 0;
-  Image picture_;  // in the making as a file
-  Worker worker_;  // waits for it when destroyed
+  Image picture_;  // that is being written
+  Worker worker_;  // the last member: its destructor waits for the picture
 };
 
-/// Writes frame_00000.png ... into `folder` (made if absent), one picture a frame of `source`,
-/// whose survey has been taken; `bar` is a colour bar that several movies share. One frame is in
-/// memory at a time, with the one before and its picture, every file is whole at any time. Progress
-/// of `watch` grows from 0 to 1. Errors: Fault::bad_input for a run without frames or an impossible
-/// size, Fault::cancelled between frames, Fault::io, those of the source.
+/// Writes frame_00000.png ... into `folder` (made if absent), one picture per frame of `source`,
+/// whose summary is `survey`; `bar` is a common colour bar of several movies. Only two frames are
+/// in memory at a time, and every file is complete at any time. The progress of `watch` increases
+/// from 0 to 1. Errors: Fault::bad_input for a run without frames or without the values to be
+/// coloured, or for a size outside its range; Fault::cancelled between frames; Fault::io; those of
+/// the source.
 Result<void> write_movie(const FrameSource& source, RunSummary survey, const MovieStyle& style,
                          const std::optional<ColourBar>& bar, Renderer& renderer,
                          const std::filesystem::path& folder, Watch& watch,
                          const FrameCallback& on_frame = {});
 
-// Several runs of one preset next to one another in a frame, each from its own camera, under one
-// colour bar: the cases of a movie.
-
-/// Frames `folder`/frame_00000.png ...: frame k of every run, the last one where a run ended
-/// earlier; above each its name, here plain text. Size, quality, camera and colours are the
-/// style's; colours share one scale. Errors: as write_movie.
+/// Writes frames of several runs (cases) side by side, each with its own camera, under one colour
+/// bar: `folder`/frame_00000.png ... Picture k has frame k of every run, or its last frame if the
+/// run ended earlier, with its name (plain text) above. Size, quality, camera and colours are the
+/// style's. Errors: those of write_movie.
 Result<void> write_side_by_side(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                 Renderer& renderer, const std::filesystem::path& folder,
                                 Watch& watch, const FrameCallback& on_frame = {});

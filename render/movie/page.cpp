@@ -19,7 +19,7 @@ double cell_height(const PicturePair& pair, double width) {
   return std::min(height, 1.5 * width);
 }
 
-// as large as the cell allows, at its upper left
+// draws a picture as large as the cell allows, at its upper left
 void draw_in(Canvas& canvas, const Box& cell, const std::optional<Image>& image) {
   if (!image) {
     canvas.rectangle(cell, {0, 0, 0, 0}, {empty_ink, 1, {4, 3}});
@@ -83,7 +83,7 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
                     {.size = 7.5, .align_x = AlignX::centre, .align_y = AlignY::middle});
       }
       (as_lines && panel.draw_lines ? panel.draw_lines : panel.draw)(canvas, box);
-      // over what was drawn: "B1" is wider than the room at its side
+      // after the drawing, since a letter like "B1" may be wider than its room
       if (!panel.letter.empty())
         canvas.text(panel.letter, corner, {.size = 9.5, .bold = true, .align_y = AlignY::top});
     }

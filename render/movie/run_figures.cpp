@@ -15,13 +15,13 @@ namespace {
 
 constexpr Colour shell_ink = ink, scan_ink{0.80f, 0.16f, 0.12f, 1};
 
-/// Without the marks of contacts, which these figures do not name.
+/// The frame without interpenetrations, since these figures have no legend for their marks.
 record::Frame unmarked(record::Frame frame) {
   frame.contacts = -1;
   return frame;
 }
 
-/// The last frame alone, its boundary where it is fixed.
+/// The last frame alone, with the actuated boundary only.
 record::Trajectory final_state(const record::Trajectory& run) {
   record::Trajectory last;
   last.layout = run.layout;
@@ -30,7 +30,7 @@ record::Trajectory final_state(const record::Trajectory& run) {
   return last;
 }
 
-/// The axis x from the middle of a shell to its boundary, L long, in front of it.
+/// Adds the axis x, of length L from the middle of a shell to its boundary, in front of the shell.
 void add_half_span(const record::Layout& layout, Drawing& drawing) {
   const Eigen::Vector3d low = layout.actuated_boundary.rowwise().minCoeff(),
                         high = layout.actuated_boundary.rowwise().maxCoeff();
@@ -42,7 +42,7 @@ void add_half_span(const record::Layout& layout, Drawing& drawing) {
 
 using DrawingEdit = std::function<void(const NetRun&, Drawing&)>;
 
-/// All panels at the scale of the largest shell, with a bar of it.
+/// Sets the scale of all panels to that of the largest shell, and its scale bar.
 void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, PanelFigure& figure) {
   figure.pixels_per_mm = stages.front().pixels_per_mm();
   for (const Stage& stage : stages)
@@ -50,7 +50,7 @@ void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, Pa
   figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, stages.front().run().length_scale_mm);
 }
 
-/// One panel a run, the drawing of each changed by `edit`.
+/// A figure with one panel per run, whose drawing is changed by `edit`.
 Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
                               Watch& watch, int columns, const DrawingEdit& edit) {
   const MovieStyle style = uncoloured(movie_style);
@@ -67,7 +67,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     Drawing drawing = stages[k].drawing(states[k].frames.front());
     drawing.ground = false;
-    // lines as thick on paper as the largest's
+    // lines as thick on paper as those of the largest shell
     drawing.rod_diameter_mm *= wider;
     edit(runs[k], drawing);
     TRY_DO(add_panel(figure, stages[k], std::move(drawing),
@@ -76,7 +76,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
   return figure;
 }
 
-/// A round end above `largest`, so that a bar's last label is the scale's end.
+/// A round number above `largest`, so that the last label of the colour bar is its end.
 double round_end(double largest) {
   const double power = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9))));
   for (const double leading : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
@@ -84,7 +84,7 @@ double round_end(double largest) {
   return 10 * power;
 }
 
-/// What the colours over nets mean.
+/// The colour keys of draw_over_nets().
 std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
   const record::Layout& layout = runs.front().run->layout;
@@ -105,7 +105,7 @@ MovieStyle panel_style(MovieStyle style) {
   style.colour_by = ColourBy::displacement;
   style.look.floor = false;
   style.look.joint_mm = 0;
-  // round shells, three to a row
+  // square panels, for round shells
   style.size[0] = style.size[1];
   return style;
 }
@@ -178,10 +178,10 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
   const auto dress = [kinds = BlockKinds(runs)](const NetRun& one, Drawing& drawing) {
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
-    // wider and below, so that a net is seen on both sides of a shell that meets it
+    // the net is wider and below, so that it is visible on both sides of rods that are on it
     drawing.rod_diameter_mm *= 1.5;
     const double wide = 2.6 * drawing.rod_diameter_mm;
-    // blocks each on a net of its own
+    // every block has a net of its own
     for (const record::Part& part : layout.parts)
       drawing.ghosts.push_back({part.net, part.rods, wide, kinds.colour(part.name)});
     if (layout.parts.empty() && layout.net_nodes.cols() > 0)
@@ -195,7 +195,7 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
 }
 
 DeviationUnit deviation_unit(const record::Layout& layout) {
-  // blocks have no radius that is theirs alone
+  // building blocks have no common radius rho
   if (!layout.parts.empty()) return {layout.length_scale_mm, "Δ (mm)"};
   return {100, "Δ/*ρ* (%)"};
 }
@@ -229,7 +229,7 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   const auto bar = colour_bar_of(all, style);
   PanelFigure figure = empty_figure(style, std::min(3, int(runs.size())));
   figure.colour_bar = bar;
-  // one by itself is named by the title
+  // a single shell is named by the title
   const bool several = runs.size() > 1 || style.title.empty();
   std::vector<Stage> stages;
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -241,7 +241,7 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
     const record::Frame last = unmarked(runs[k].run->frames.back());
     Drawing drawing = stages[k].drawing(last);
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
-    // the colours are the rods': nothing hides them
+    // wider rods, since their colours are the result
     drawing.rod_diameter_mm *= 1.5 * wider;
     TRY_DO(add_panel(figure, stages[k], std::move(drawing),
                      {several, several ? runs[k].caption : "", wider}, nullptr, watch));
@@ -273,7 +273,7 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
 Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
                          const std::string& title, const std::string& name, const Print& print) {
   constexpr double font = 7.5, usual = 186, least = 150, height = 172;  // points
-  // as many next to one another as stay readable
+  // as many per row as are readable
   const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;

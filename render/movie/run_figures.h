@@ -1,4 +1,5 @@
-// Shells next to the nets they were designed on, in space [Baek 2018, Figs. 3 and 4A].
+// Figures of shells in space: over the nets they were designed on [Baek 2018, Figs. 3 and 4A], of
+// building blocks [Fig. 5] and under point loads [Fig. 4C-D].
 #pragma once
 
 #include <filesystem>
@@ -18,121 +19,123 @@
 
 namespace gridshell::render {
 
-// What figures of shells share.
-
-/// A style of panels that are not coloured by a quantity: no captions, no turn.
+/// The style without colours of a quantity, captions, inset and turn of the camera.
 MovieStyle uncoloured(MovieStyle style);
 /// A figure in a style, without panels.
 PanelFigure empty_figure(const MovieStyle& style, int columns);
-/// "A", "B", ... where the style wants letters.
+/// "A", "B", ... for panels 0, 1, ...; empty if the style has no letters.
 std::string panel_letter(const MovieStyle& style, std::size_t k);
 
+/// Letter, caption and size of a panel.
 struct PanelText {
   bool lettered = false;
-  std::string caption = {};  ///< marked text
-  double wider = 1;          ///< how many times as much is seen as the stage frames
+  std::string caption = {};  ///< text with markup
+  double wider = 1;          ///< factor of the camera's extent over that of the stage
 };
-/// Adds a panel: a drawing as the stage's camera sees its last frame. Without a renderer it is
-/// lines; with one a picture, and lines too if the style has vectors. Errors: the renderer's;
-/// Fault::cancelled.
+/// Adds a panel: the drawing from the stage's camera at its last frame. Without a renderer the
+/// panel is lines; with one it is a picture, and lines too if the style has `vector`. Errors: the
+/// renderer's; Fault::cancelled.
 Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
                        const PanelText& text, Renderer* renderer, const Watch& watch);
 
-/// A run shown by its last frame, over its net if its layout knows one.
+/// A run shown by its last frame, over its net if its layout has one.
 struct NetRun {
   const record::Trajectory* run = nullptr;
-  std::string caption;            ///< marked text
-  Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's frame
-  bool half_span = false;         ///< with the axis x and the half-span L next to it
+  std::string caption;            ///< text with markup
+  Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's coordinates
+  bool half_span = false;         ///< with the axis x and the half-span L next to the shell
 };
 
-/// Distance of every node of the last frame from its position on the net, over rho.
+/// Distance of every node of the last frame from its position on the net, over the length scale
+/// (rho). The layout must have a net.
 Eigen::VectorXd last_deviation(const record::Trajectory& run);
 
-/// What deviations over the length scale are multiplied by to be shown, and what they are then:
-/// per cent of rho, or for building blocks millimetres.
+/// The unit in which deviations are shown: per cent of rho or, for building blocks, millimetres.
 struct DeviationUnit {
-  double factor = 100;
-  std::string label;  ///< marked text
+  double factor = 100;  ///< from a deviation over the length scale to this unit
+  std::string label;    ///< text with markup
 };
 DeviationUnit deviation_unit(const record::Layout& layout);
 
 /// Whether the net is a part of a sphere about the origin, of radius rho.
 bool on_sphere(const record::Layout& layout);
 
-/// A drawing with the joints measured on it, red, over a dark shell without joints of its own;
-/// `measured` in mm, in the drawing's frame.
+/// Adds measured joints (3 x n, mm, in the drawing's coordinates) in red, and makes the shell dark,
+/// without joints of its own.
 void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing);
 
-/// What its red joints mean.
+/// The colour key of measured joints.
 ColourKey scan_key();
 
-/// The shells, dark, over their nets, wider and orange, with the joints scanned, red, at most
-/// `columns` side by side, as lines. Progress and errors as write_stills.
+/// A figure of shells (dark) over their nets (wider, orange) with measured joints (red), at most
+/// `columns` side by side, as lines. Errors: those of check_showable(); Fault::cancelled.
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                                    Watch& watch, int columns = 3);
 
-/// The shells coloured by their deviation, side by side with one colour bar, as lines.
+/// A figure of shells coloured by their deviation, with one colour bar, as lines. Errors: those of
+/// draw_over_nets(). All runs must have a net.
 Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
                                     Watch& watch, int columns = 3);
 
-// Building blocks, apart and joined [Baek 2018, Fig. 5].
+// Building blocks, separate and joined [Baek 2018, Fig. 5].
 
-/// A block's name without the number that distinguishes it from equal ones: "quarter sphere".
+/// The name of a block without the number that distinguishes it from equal ones: "quarter sphere".
 std::string block_kind(const std::string& name);
 
-/// The kinds of blocks of some runs, and their colours in all pictures of these.
+/// The kinds of blocks of some runs, and their colours in all pictures of these runs.
 class BlockKinds {
  public:
   explicit BlockKinds(const std::vector<NetRun>& runs);
-  Colour colour(const std::string& block) const;  ///< by its name
+  Colour colour(const std::string& block) const;  ///< `block`: name of a block
   std::vector<ColourKey> keys() const;
 
  private:
   std::vector<std::string> kinds_;
 };
 
-/// Blocks on their nets in one picture of lines: all of one run, apart, or of several runs one of
-/// each kind. Errors as write_stills.
+/// A figure of blocks on their nets in one panel of lines: all blocks of a single run, separated,
+/// or one block of each kind of several runs. Errors: those of draw_over_nets().
 Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyle& style,
                                 Watch& watch);
 
-/// What write_block_footprints draws into a box, at a scale (units per mm) or, if that is 0, as
-/// large as fits.
+/// Draws the separate footprints of the blocks and below them the joined footprint, with its
+/// original and (dashed) actuated boundary, into a box, at `scale` (units per mm); 0: as large as
+/// fits.
 void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run,
                            const BlockKinds& kinds, double scale = 0);
+/// The largest scale (units per mm) at which draw_block_footprints() fits into a box.
 double block_footprint_scale(const Box& box, const record::Trajectory& run);
 
-/// The blocks' footprints apart, and below them the joined footprint with its original boundary
-/// and, dashed, the actuated one, to scale. Writes `<stem>.png` and `<stem>.svg`.
+/// Writes the drawing of draw_block_footprints() as `<stem>.png`, `.svg` and `.pdf`. Errors:
+/// Fault::io.
 Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title = "",
                                     const Print& print = {});
 
-/// Gap, and kink, of every rod across a seam against its position along the seam, one marker per
-/// seam.
+/// Two plots, of the gap and of the kink of every rod across a seam over its position along the
+/// seam, with one marker per seam.
 std::vector<Plot> seam_plots(const record::Trajectory& run);
 
-/// Plots next to one another, as many as stay readable, with the legend of the first above them
-/// all; `title` (plain text; may be empty) above, `name` of the file. Writes `<stem>.png`, `.svg`
-/// and
-/// `.pdf`.
+/// Writes plots side by side, as many per row as are readable, as `<stem>.png`, `.svg` and `.pdf`.
+/// The legend of the first one is above all, with `title` (plain text; may be empty); `name` is the
+/// title in the files. There is at least one plot. Errors: Fault::io.
 Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
                          const std::string& title, const std::string& name, const Print& print);
 
-// Shells under point loads, next to one another [Baek 2018, Fig. 4C-D].
+// Shells under point loads [Baek 2018, Fig. 4C-D].
 
-/// The shells at their last frame, seen from the style's camera, rods coloured by |u|/delta_0 under
-/// one colour bar, as lines. Progress and errors as write_stills.
+/// A figure of the shells at their last frame from the style's camera, with rods coloured by
+/// |u|/delta_0 and one colour bar, as lines. Errors: those of draw_over_nets().
 Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& style,
                                 Watch& watch);
 
-/// Force against depth over all frames, N and mm: how each shell resists. Where one snapped, the
-/// states before and after are joined by a dashed line.
+/// Force (N) over depth (mm) of all frames of each run. Dashed lines join the states before and
+/// after a snap, dotted lines are unstable states.
 Plot force_plot(const std::vector<NamedRun>& runs);
 
-/// K of the cells in bins of x/L at the last frame over the grey ones of the first, a plot a run on
-/// one scale, `title` (plain text; may be empty) above. Writes `<stem>.png` and `<stem>.svg`.
+/// Writes plots of K□ of the cells in bins of x/L at the last frame over the grey bars of the
+/// first, one per run on one scale, with `title` (plain text; may be empty) above, as `<stem>.png`,
+/// `.svg` and `.pdf`. Writes nothing if a run has no bins. Errors: Fault::io.
 Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                              const std::string& title, const Print& print = {});
 

@@ -35,7 +35,7 @@ bool planes_differ(const std::vector<NamedRun>& runs) {
   });
 }
 
-/// The names of the runs in their colours, one after the other.
+/// Writes the names of the runs in their colours, one after another.
 void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const TextStyle style{
@@ -44,7 +44,7 @@ void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
   }
 }
 
-/// Units a millimetre, at most `most`.
+/// Draws the boundaries in a box and returns their scale (units per millimetre), at most `most`.
 double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs,
                        double most) {
   Eigen::Matrix2Xd all;
@@ -64,7 +64,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   for (std::size_t k = 0; k < runs.size(); ++k)
     canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
-  // of one alone, its actuated boundary
+  // a single run also has its actuated boundary
   if (runs.size() == 1)
     canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
                     true);
@@ -77,18 +77,19 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
         text, at,
         canvas.fitted(text, canvas.width() - at.x - 4, {.size = 8, .align_y = AlignY::middle}));
   }
-  // caps are named at the planes that cut them, where these are theirs alone
+  // caps have their names at the planes that cut them, if these differ
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
   return place.scale;
 }
 
-/// Units a millimetre at which a sphere of radius rho and its names fill a box.
+/// Scale (units per millimetre) at which a sphere of radius rho with the names of planes fills a
+/// box.
 double scale_of_planes(const Box& box, double rho) {
   return std::min(box.width / 2.95, box.height / 1.35) / rho;
 }
 
-/// A sphere from the side and the planes z = z* of its caps.
+/// Draws a sphere from the side and the planes z = z* of its caps.
 void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs, double scale) {
   const double rho = runs.front().run->layout.length_scale_mm;
   const Point centre{box.x + 1.15 * scale * rho, box.middle().y + 0.5 * scale * rho};
@@ -100,21 +101,21 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
   constexpr double size = 7;
-  double free = INFINITY;  // above it a name may be
+  double free = INFINITY;  // the lowest y of the next name, above those before
   std::vector<double> shown;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double z = plane_of(runs[k]);
     const double half = 1.1 * scale * rho, y = centre.y - scale * z;
     const Colour colour = runs.size() == 1 ? ink : series_colour(k);
-    // to a hundredth, and no minus before a zero
+    // rounded to a hundredth; + 0.0 makes -0 positive
     const double fraction = std::round(100 * z / rho) / 100 + 0.0;
     const bool again = std::ranges::find(shown, fraction) != shown.end();
     shown.push_back(fraction);
-    // of two that lie in one plane both are seen
+    // a second line in one plane is dashed, so that both are visible
     const std::vector<double> dash = again ? std::vector<double>{4, 4} : std::vector<double>{};
     canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4, dash});
     if (again) continue;
-    // one plane has room below it
+    // the name of a single plane is below it
     if (runs.size() == 1) {
       canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", fraction), {centre.x, y + 3},
                   {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
@@ -135,13 +136,13 @@ double latitude_deg(double sine) {
   return std::asin(std::clamp(sine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-/// Joints by latitude and distance from the centre.
+/// Adds joints by latitude and distance from the centre.
 void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series) {
   for (const auto& joint : joints.colwise())
     series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
-/// A square about all lines, so that lengths are equal on both axes.
+/// Sets the axes to a square around all lines, so that both have one scale.
 void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
   constexpr double wider = 1.08;
   Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
@@ -182,7 +183,7 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
-    // an assemblage need not lie about the origin
+    // the middle of an assemblage of blocks may differ from the origin
     const auto ends = run.layout.actuated_boundary.row(0);
     const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
     const Eigen::Matrix3Xd joints = joints_of(run);
@@ -229,9 +230,9 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   net.add(latitude_deg(run.layout.actuated_boundary.row(2).mean() / rho), 1);
   net.add(90, 1);
   plot.x.low = net.x.front();
-  plot.x.high = 92;  // a joint at the pole is all there
+  plot.x.high = 92;  // so that the marker of a joint at the pole is complete
   plot.add(std::move(net));
-  // wider and below, so that a computed joint shows inside the one scanned
+  // larger markers below, so that a computed joint is visible inside the scanned one
   Series measured =
       mark_series("joints, scanned", {0.80f, 0.16f, 0.12f, 1}, Marker::circle, 4.2, true);
   add_by_latitude(scan, rho, measured);
@@ -245,11 +246,11 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   const bool caps = all_caps(runs);
   const double half = caps ? box.width / 2 : box.width;
-  // below the boundaries is a length to read them by
+  // the boundaries need more room below, for the spacing
   const Box beside{box.x + half, box.y, half, box.height - 8};
   const double most =
       caps ? scale_of_planes(beside, runs.front().run->layout.length_scale_mm) : INFINITY;
-  // both at one scale
+  // boundaries and planes have one scale
   const double scale =
       draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs, most);
   if (caps) draw_planes(canvas, beside, runs, scale);
@@ -257,7 +258,7 @@ void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>
 
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                               const std::string& title, const Print& print) {
-  // text keeps its size however wide the figure is printed
+  // the size of text does not depend on the printed width
   const double usual = all_caps(runs) ? 470 : 250, width = print.width_pt(usual),
                height = 250 * width / usual;
   return write_figure(

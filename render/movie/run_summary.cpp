@@ -7,13 +7,13 @@ namespace {
 
 constexpr double gap_mm = 2.5;  // between joint and arrow
 
-/// As long as `arrow`, outside the shell.
+/// An arrow at a node with the length and direction of `arrow`, outside the shell.
 LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int node,
                    const Eigen::Vector3d& arrow, double gap) {
   const Eigen::Vector3d middle = layout.actuated_boundary.rowwise().mean(),
                         at = frame.nodes.col(node);
   const Eigen::Vector3d along = arrow.normalized();
-  // clearly so: in a flat shell round-off must not choose
+  // with a margin, so that round-off does not decide in a flat shell
   const bool away = along.dot(at - middle) > 0.02 * layout.length_scale_mm;
   const Eigen::Vector3d near = at + (away ? gap : -gap) * along;
   return away ? LoadArrow{node, near, near + arrow} : LoadArrow{node, near - arrow, near};
@@ -21,7 +21,7 @@ LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// at most `most` of them, evenly
+// every n-th element, at most `most` of them
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   const std::size_t stride = std::max<std::size_t>(1, (all.size() + most - 1) / most);
@@ -30,7 +30,7 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   return some;
 }
 
-// eighths of what lies between two joints of a rod, or a joint and the rod's end, and that end
+// adds points that divide a rod into eighths between two joints, or between a joint and an end
 void add_rod_points(const std::vector<int>& rod, const std::vector<char>& joint,
                     std::vector<RodSample>& points) {
   constexpr std::size_t parts = 8;
@@ -53,7 +53,7 @@ std::vector<RodSample> rod_points(const record::Layout& layout) {
   return points;
 }
 
-// what represents a frame: joints, points of the rods, and the arrows of loads
+// points that represent a frame: of the rods, and of the arrows of loads
 Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodSample>& rods,
                            const record::Frame& frame, double largest_N) {
   std::vector<Eigen::Vector3d> points;
@@ -116,7 +116,7 @@ std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::
   std::vector<LoadArrow> arrows;
   if (!(largest_N > 0) || layout.actuated_boundary.cols() == 0) return arrows;
   const auto known = std::min<Eigen::Index>(frame.loads_N.cols(), long(layout.supports.size()));
-  // of a load on an area a few arrows, all of one length
+  // a load on an area has a few arrows, all of one length
   constexpr Eigen::Index most = 16;
   const bool area = loads_all_alike(frame);
   const Eigen::Index stride = area ? (known + most - 1) / most : 1;
@@ -141,7 +141,7 @@ bool loads_all_alike(const record::Frame& frame) {
     if (load.dot(sum) < least_cosine * size * sum.norm()) return false;
     ++count;
   }
-  // one that is much larger than the others is a point's
+  // a load that is much larger than the others is a point load
   return count >= many && frame.loads_N.colwise().norm().maxCoeff() < 10 * sum.norm() / count;
 }
 
@@ -204,7 +204,7 @@ void RunSummary::take(const record::Frame& frame) {
   if (frame.K_bins.rows() == first.K_bins.rows())
     for (long k = 0; k < frame.K_bins.rows(); ++k)
       bins_change_rad.take(frame.K_bins(k, 0) - first.K_bins(k, 0));
-  // a shell lies near its net once its boundary does: what is before does not set the scale
+  // a shell is near its net only when its boundary is: earlier frames do not set the scale
   if (frame.actuation > largest_actuation_)
     spreads_[std::size_t(ColourBy::deviation)].most.setZero();
   largest_actuation_ = std::max(largest_actuation_, frame.actuation);
@@ -234,7 +234,7 @@ ProgressAxis RunSummary::progress() const {
     const double range = axis.last - axis.first;
     for (const double value : values) {
       const double place = (value - axis.first) / range;
-      // also false of what is not known
+      // the comparison is also false for NaN
       if (!(place >= (axis.places.empty() ? 0 : axis.places.back()) && place <= 1))
         return ProgressAxis{};
       axis.places.push_back(place);
@@ -259,7 +259,7 @@ void RunSummary::sample_points(const record::Frame& frame) {
   sampled_points_.push_back(last_);
   constexpr std::size_t most_frames = 32;
   if (sampled_points_.size() <= most_frames) return;
-  // shells move smoothly: every other one of these bounds them as well
+  // shells move smoothly, so that half of the frames bounds them as well
   for (std::size_t k = 1; 2 * k < sampled_points_.size(); ++k)
     sampled_points_[k] = std::move(sampled_points_[2 * k]);
   sampled_points_.resize((sampled_points_.size() + 1) / 2);

@@ -1,4 +1,5 @@
-// The boundary on its path.
+// What the pictures of a run need to know of all its frames before the first is drawn (ranges,
+// bounds, events), the values that are coloured, and the arrows of loads.
 #pragma once
 
 #include <algorithm>
@@ -16,38 +17,36 @@
 
 namespace gridshell::render {
 
-/// Every point moves straight and evenly from the original (actuation 0) to the actuated boundary
-/// (1). 3 x n, mm.
+/// The boundary at an actuation from 0, the original one, to 1, the actuated one, between which its
+/// points move on straight lines. 3 x n, mm.
 Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation);
 
-/// Whether the original boundary says anything: not where an actuated shell is pushed.
+/// Whether the original boundary is drawn: not in a push, which follows the actuation.
 inline bool original_boundary_shown(const record::Frame& frame) {
   return !std::isfinite(frame.depth_mm);
 }
 
-// Where a shell is pushed or pulled: arrows at the joints that move with them.
-
-/// From tail to tip, mm.
+/// An arrow of a load at a joint, from tail to tip, mm.
 struct LoadArrow {
-  int node = 0;  ///< of the joint that it acts on
+  int node = 0;  ///< of the joint
   Eigen::Vector3d from, to;
 };
 
-/// Whether a load acts in this frame. One that comes and goes acts where its joint is prescribed;
-/// where the frame knows no reactions, always.
+/// Whether a push acts in this frame. A push that acts only at times does if its joint has a
+/// reaction; it always does in a frame without reactions.
 bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
                const record::Frame& frame);
 
-/// Arrows of the loads that act. A push has its tip at the joint; a pull away from the shell its
-/// tail. As long as a quarter of the length scale.
+/// Arrows of the pushes that act, outside the shell: a push has its tip at the joint, a pull its
+/// tail. Their length is a quarter of the length scale.
 std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame);
 
-/// Whether the loads are those of an area: of many nodes, all in one direction.
+/// Whether the loads are those of an area: on many nodes, in one direction and of similar size.
 bool loads_all_alike(const record::Frame& frame);
 
-/// Arrows for Frame::loads_N, as long as the loads are large: the largest of a run, `largest_N`,
-/// longest_force() mm. They are outside the shell, as the arrows above; what is less than a
-/// hundredth is left out. If all loads are equal, some are shown, all of that length.
+/// Arrows of Frame::loads_N, outside the shell. The largest load of the run, `largest_N`, has an
+/// arrow of longest_force() mm, others in proportion; loads below a hundredth of it are left out.
+/// Loads of an area are shown by a few arrows of that length.
 std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
                                     double largest_N);
 inline double longest_force(const record::Layout& layout) {
@@ -55,21 +54,17 @@ inline double longest_force(const record::Layout& layout) {
                     0.2 * layout.length_scale_mm);
 }
 
-// What the pictures of a run have to know of all its frames before the first is drawn: ranges,
-// bounds and events. Frames are looked at once, one at a time; the first is kept, and of some
-// others some points.
-
-/// Frames one at a time, from memory or from a file.
+/// Frames of a run, one at a time, from memory or from a file.
 struct FrameSource {
   const record::Layout* layout = nullptr;
   int count = 0;
   std::function<Result<record::Frame>(int)> at;  ///< 0 to count - 1, in any order
 };
 
-/// The frames of a run in memory, which outlives the source.
+/// The frames of a trajectory, which must outlive the source.
 FrameSource source_of(const record::Trajectory& run);
 
-/// The smallest and the largest of some values; low > high before the first.
+/// The range of finite values; low > high if there are none.
 struct Interval {
   double low = INFINITY, high = -INFINITY;
   void take(double value);
@@ -77,76 +72,77 @@ struct Interval {
   bool any() const { return low <= high; }
 };
 
-/// A quantity of cells or nodes over all frames. All count for the scale, but for the deviation
-/// from the net: those with the boundary farthest on its path alone, as a flat shell deviates by
-/// its size.
+/// The range of a quantity of cells or nodes over all frames. All frames count for the colour
+/// scale, except for the deviation from the net: only those of largest actuation, since a flat
+/// shell deviates by its size.
 struct ColouredRange {
-  Eigen::ArrayXd most;  ///< largest size of each one's, of the frames that count for the scale
-  Interval all;         ///< of all that are known
+  Eigen::ArrayXd most;  ///< per cell or node the largest magnitude in the frames that count
+  Interval all;         ///< of all known values
 
   void take(const Eigen::VectorXd& values, bool counts);
 };
 
-/// Something that happened to the shell, and in which frame.
+/// An event or a lasting state of the shell in a frame.
 enum class MarkKind { contact, unstable, motion, snap, lock, other };
 struct Mark {
   int at = 0;  ///< position of the frame in the run, from 0
   MarkKind kind = MarkKind::other;
 };
 
-/// One more than the largest node that rods and joints name.
+/// The number of nodes that rods and joints refer to: the largest index + 1.
 long node_count_of(const record::Layout& layout);
 
-/// A point of a rod between two of its nodes, or at one.
+/// A point of a rod between two of its nodes.
 struct RodSample {
   int from = 0, to = 0;  ///< columns of Frame::nodes
-  double part = 0;       ///< of the distance between them
+  double part = 0;       ///< fraction of the distance between them
 };
 
-/// What a bar of progress shows of a run: the quantity, its ends, and each frame's position between
-/// them, 0 to 1. Without a name: frames alone.
+/// The axis of a run's timeline.
 struct ProgressAxis {
-  std::string name;  ///< marked text
-  double first = 0, last = 1;
-  std::vector<double> places;
-  std::string unit = " mm";  ///< with the space before it
+  std::string name;            ///< of the quantity, with markup; empty: the number of the frame
+  double first = 0, last = 1;  ///< values at the ends
+  std::vector<double> places;  ///< position of each frame between the ends, 0 to 1
+  std::string unit = " mm";    ///< with the space before it
 };
 
+/// Ranges, bounds and events of a run. Every frame is passed to take() once, in order; only the
+/// first one and some points of others are stored.
 class RunSummary {
  public:
-  /// The layout outlives the survey.
+  /// The layout must outlive the summary.
   explicit RunSummary(const record::Layout& layout);
 
-  /// The next frame of the run.
+  /// Takes the next frame of the run.
   void take(const record::Frame& frame);
 
   int frames = 0;
-  record::Frame first;           ///< what later frames are compared with
-  double turn_deg = 0;           ///< angle that the camera goes around a state alone; 0: none
-  double depth_mm = 0;           ///< of a push, at its deepest; 0 without one
-  double lowest_z_mm = 0;        ///< of all that is drawn
-  double support_z_mm = 0;       ///< of the lowest point of both boundaries
+  record::Frame first;           ///< with which later frames are compared
+  double turn_deg = 0;           ///< angle by which the camera moves around a single state; 0: none
+  double depth_mm = 0;           ///< largest depth of a push; 0: no push
+  double lowest_z_mm = 0;        ///< lowest point of all frames and boundaries
+  double support_z_mm = 0;       ///< lowest point of both boundaries
   double largest_load_N = 0;     ///< of Frame::loads_N
-  bool arrows_to_scale = false;  ///< some frame's loads are arrows as long as they are large
-  bool any_contacts = false;     ///< some frame has interpenetrations
-  Interval bins_rad;             ///< mean K of the bins, with their standard deviations
-  Interval bins_change_rad;      ///< of these means, from the first frame
-  double largest_move_mm = 0;    ///< of a joint, from where it was in the first frame
-  std::vector<Mark> marks;       ///< in order
-  std::set<int> supported;       ///< nodes with a reaction in some frame: a flat grid has round-off
+  bool arrows_to_scale = false;  ///< whether lengths of load arrows are in proportion to the loads
+  bool any_contacts = false;     ///< whether a frame has interpenetrations
+  Interval bins_rad;             ///< mean K□ of the bins plus and minus the standard deviation
+  Interval bins_change_rad;      ///< change of the means since the first frame
+  double largest_move_mm = 0;    ///< largest displacement of a joint from the first frame
+  std::vector<Mark> marks;       ///< in the order of frames
+  std::set<int> supported;       ///< nodes with a reaction in some frame
 
-  /// The range of what is coloured (colour_by.cpp), but for displacements, whose depth the end
-  /// alone knows.
+  /// The range of a quantity (coloured_values()), except displacements, whose scale is only known
+  /// after the last frame.
   const ColouredRange& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
 
-  /// Along the angle of the camera, the depth of a push that only grows, or the radius of a
-  /// boundary that only shrinks.
+  /// The timeline's axis: the angle of the camera, the depth of a push if it only increases, or the
+  /// radius of the boundary if it only decreases; otherwise the number of the frame.
   ProgressAxis progress() const;
 
-  /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
-  /// hundreds of some dozen frames, and the boundaries themselves. They have the same positions on
-  /// the rods on every mesh, and round-off does not choose them: the whole picture would move with
-  /// them. 3 x n, mm.
+  /// Points that bound all frames, the boundaries that are drawn and the arrows of loads: some
+  /// hundreds per frame of some dozen frames, and all points of the boundaries. They are at the
+  /// same positions of the rods on every mesh and do not depend on round-off, which would move the
+  /// complete picture. 3 x n, mm.
   Eigen::Matrix3Xd bounds() const;
 
  private:
@@ -155,47 +151,44 @@ class RunSummary {
   const record::Layout* layout_;
   std::array<ColouredRange, words_of<ColourBy>().size()> spreads_;
   std::vector<double> depths_mm_, radii_mm_;      ///< of every frame
-  std::vector<RodSample> rod_points_;             ///< the same positions on the rods of every mesh
-  double largest_actuation_ = -1;                 ///< the boundary has come
-  int sample_stride_ = 1;                         ///< frame whose points are kept
-  std::vector<Eigen::Matrix3Xd> sampled_points_;  ///< of every so many frames
-  Eigen::Matrix3Xd last_;                         ///< of the last frame
+  std::vector<RodSample> rod_points_;             ///< at the same positions of rods on every mesh
+  double largest_actuation_ = -1;                 ///< of the frames so far
+  int sample_stride_ = 1;                         ///< every so many frames have stored points
+  std::vector<Eigen::Matrix3Xd> sampled_points_;  ///< points of these frames
+  Eigen::Matrix3Xd last_;                         ///< points of the last frame
 };
 
+/// The summary of all frames of a run.
 RunSummary summarise_run(const record::Trajectory& run);
 
-// What of a frame is coloured: a value a cell or a node.
-
-/// Whether the values are the cells'; else they are the nodes', of rods.
+/// Whether a quantity has values of cells; otherwise it has values of nodes, for the rods.
 bool of_cells(ColourBy by);
 
-/// Whether a run may know it of no frame: forces and energies along the rods of an older version or
-/// of a net, distances where there is no net.
+/// Whether a run may have no values of a quantity: forces and energies along the rods in a run of
+/// an older version or of the net model, deviations in a run without a net.
 bool may_be_missing(ColourBy by);
 
-/// What displacements and changes are measured from.
+/// The reference of displacements and changes.
 struct ColourOrigin {
-  const record::Frame& first;  ///< of the run
-  double depth_mm = 0;         ///< of the push, at its deepest
+  const record::Frame& first;  ///< frame of the run
+  double depth_mm = 0;         ///< largest depth of the push
 };
 
-/// One value a cell or a node: K or its change (rad), deviation over rho, displacement over depth,
-/// bending energy over length (mJ/m), axial force (N). Empty for none, and where the frame does not
-/// know them.
+/// The values of a quantity in a frame, one per cell or node: K□ or its change (rad), deviation
+/// over rho, displacement over depth, bending energy over length (mJ/m), axial force (N), largest
+/// stress (MPa) or its ratio to the strength, angle between rods (degrees). Empty for
+/// ColourBy::none, and if the frame does not have them.
 Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
                                 const record::Frame& frame, const ColourOrigin& from);
 
-/// For a run of which no frame knows what is to be coloured: what it lacks. Errors:
-/// Fault::bad_input.
+/// The error (Fault::bad_input) of a run that has no values of a quantity in any frame.
 tl::unexpected<Error> missing_values_error(ColourBy by);
 
-// One colour bar for all runs that are shown together.
-
-/// The scale that suits all of the runs: sequential of sizes, diverging about zero of what has a
-/// sign, also where all values have the same; none when nothing is coloured. It comes from the most
-/// of each cell, so that it does not depend on how many frames sample the path, and a
-/// few strongly bent cells at the boundary do not pale the others. The style's map and range go
-/// before.
+/// The colour bar for all runs that are shown together; empty if nothing is coloured. Its scale is
+/// sequential for magnitudes and diverging about zero for quantities with a sign, even if all
+/// values have the same sign. It is computed from the largest magnitude of each cell or node, so
+/// that it does not depend on the number of frames, by a quantile, so that a few extreme cells do
+/// not make the others pale. Map and range of the style replace these.
 std::optional<ColourBar> colour_bar_of(const std::vector<const RunSummary*>& runs,
                                        const MovieStyle& style);
 

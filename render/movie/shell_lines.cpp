@@ -14,7 +14,7 @@
 namespace gridshell::render {
 namespace {
 
-/// A point as the camera sees it: pixels, and distance along the view.
+/// A point as the camera sees it: position on the canvas, and depth along the view.
 struct Seen {
   Point at;
   double depth = 0;
@@ -41,7 +41,7 @@ class Eye {
   Box box_;
 };
 
-/// Two triangles a cell, in pixels with depths.
+/// The cells as seen by the camera, two triangles each, with depths.
 class Screen {
  public:
   Screen(const Drawing& drawing, const Eye& eye) {
@@ -86,7 +86,7 @@ class Screen {
   }
   std::vector<Triangle> triangles_;
   double low_ = INFINITY, high_ = -INFINITY;
-  std::array<std::vector<const Triangle*>, 128> rows_;  // those that reach into each strip
+  std::array<std::vector<const Triangle*>, 128> rows_;  // the triangles in each horizontal strip
 };
 
 Colour faded(Colour colour, Colour background, double by) {
@@ -108,7 +108,7 @@ class Lines {
     if (!drawing.laths_mm.empty()) normals_ = shell_normals(drawing);
   }
 
-  /// Draws the parts that belong to one of the two passes, hidden or visible.
+  /// Draws the parts that are hidden, or those that are visible.
   void draw(bool hidden) {
     const double fade = hidden ? std::max(0.55, drawing_.far_fade) : 0;
     if (hidden && drawing_.far_fade >= 1) return;
@@ -146,7 +146,7 @@ class Lines {
   }
 
  private:
-  /// As wide as a lath appears along its length, in the mean; a round rod's diameter.
+  /// Width of a rod, mm: a lath's mean apparent width along its length, or a round rod's diameter.
   double thickness_of(std::size_t r) const {
     const Eigen::Vector2f size = lath_size(drawing_, r);
     const auto& rod = drawing_.layout->rods[r];
@@ -165,8 +165,8 @@ class Lines {
 
   double width(double diameter_mm) const { return units_per_mm_ * diameter_mm; }
 
-  // Pieces of one colour that are all hidden, or all not. Colours go in steps too small to see, and
-  // each piece begins under the one before it, so that no seam shows.
+  // Draws a line in pieces of one colour that are all hidden or all visible. Colours are rounded to
+  // steps too small to see, and each piece begins under the one before, so that there are no seams.
   void polyline(const Eigen::Matrix3Xd& points, bool hidden, const Stroke& stroke,
                 const std::vector<Colour>& colours) {
     std::vector<Point> line;
@@ -177,7 +177,8 @@ class Lines {
       canvas_.polyline(line, {colour, stroke.width});
       line.clear();
     };
-    // points nearer than the line is wide add nothing but length to a file; the last one stays
+    // points nearer than the line's width are left out, since they only make files longer; the
+    // last one is drawn
     const auto add = [&](Point p) {
       if (std::hypot(end.x - line.back().x, end.y - line.back().y) > 0.8 * stroke.width)
         line.push_back(end);
@@ -232,7 +233,7 @@ class Lines {
     }
   }
 
-  /// An arrow that is seen from behind, ⊗, or from its tip, ⊙.
+  /// Draws an arrow along the view, from behind as ⊗ or from its tip as ⊙.
   void along_the_view(Point at, bool away, const Stroke& shaft) {
     const double radius = std::max(3.2 * shaft.width, 3.0), arm = radius * std::numbers::sqrt2 / 2;
     const Stroke line{shaft.colour, 0.28 * radius};
@@ -248,7 +249,7 @@ class Lines {
   Eigen::Vector3f forward_;
   Screen screen_;
   double units_per_mm_, slack_;
-  std::vector<Eigen::Vector3f> normals_;  // of the shell, where it has laths
+  std::vector<Eigen::Vector3f> normals_;  // of the shell; empty without laths
 };
 
 }  // namespace

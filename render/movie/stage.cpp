@@ -16,7 +16,8 @@ constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f,
     original_ink{0.66f, 0.67f, 0.7f, 1}, lath_ink{0.66f, 0.55f, 0.42f, 1},
     ghost_ink{0.58f, 0.6f, 0.64f, 0.6f};
 
-// from the side, so that what is pushed moves in the picture's plane, near the style's own azimuth
+// the style with a camera from the side, so that a pushed joint moves in the picture's plane; of
+// the two sides the one nearer to the style's azimuth
 MovieStyle beside_the_push(MovieStyle style, const record::Layout& layout) {
   if (style.view != preset::View::push) return style;
   constexpr double elevation_deg = 18, least_slope = 0.05;
@@ -26,14 +27,13 @@ MovieStyle beside_the_push(MovieStyle style, const record::Layout& layout) {
     if (load.direction.head<2>().norm() < least_slope) continue;
     const double across =
         std::atan2(load.direction.y(), load.direction.x()) * 180 / std::numbers::pi + 90;
-    // of both sides the one that turns the camera least
     style.azimuth_deg = across + 180 * std::round((style.azimuth_deg - across) / 180);
     break;
   }
   return style;
 }
 
-// a ghost's rods, of a few nodes between two joints
+// the rods of a ghost, with a few nodes between two joints
 std::vector<std::vector<int>> thinned_rods(const record::Layout& layout) {
   constexpr double points = 4;
   std::vector<std::vector<int>> rods;
@@ -49,8 +49,8 @@ std::vector<std::vector<int>> thinned_rods(const record::Layout& layout) {
   return rods;
 }
 
-// The plane of the supports, which a shell may reach below a little (a plate is open there), else
-// below all of it.
+// Height of the ground: the plane of the supports, unless the shell reaches far below it; then
+// below all of the shell. (The plate is open, so that a shell may be a little below it.)
 double ground_of(const RunSummary& survey, const record::Layout& layout, const Appearance& look) {
   constexpr double most_dip = 0.15;  // of the length scale
   const bool stands = layout.actuated_boundary.cols() > 0 &&
@@ -59,7 +59,7 @@ double ground_of(const RunSummary& survey, const record::Layout& layout, const A
                 : survey.lowest_z_mm - 0.75 * std::max(look.joint_mm, 3.0);
 }
 
-// a square around everything that moves or bounds
+// the square around all points
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
   if (points.cols() == 0) return {};
   const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
@@ -67,16 +67,16 @@ TopExtent top_extent(const Eigen::Matrix3Xd& points) {
           std::max({1e-6, (high.x() - low.x()) / 2, (high.y() - low.y()) / 2})};
 }
 
-// a rod's least width in pixels: thin enough for a large net, thick enough to be seen
+// smallest width of a rod in pixels: thin enough for a large net, thick enough to be visible
 double least_pixels(const MovieStyle& style) {
   return std::max(1.1, 1.5 * std::min(style.height() / 720.0, style.width() / 1000.0));
 }
 
-// K is a frame's own
+// whether the values are those of Frame::cell_K
 bool by_K(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
 
-// columns of equal width; a single view has the whole picture to itself, so that the ground extends
-// under the captions
+// the panels of views, in columns of equal width; a single view has the complete picture, so that
+// the ground extends under the captions
 std::vector<Box> panels_of(const FrameLayout& layout, const MovieStyle& style) {
   const int count = 1 + int(style.views.size());
   if (count == 1) return {{0, 0, double(style.width()), double(style.height())}};
@@ -107,7 +107,7 @@ std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view
   return framings;
 }
 
-// everything outside the box in one colour
+// fills everything outside the box with one colour
 void clear_outside(Image& image, const Box& box, Colour colour) {
   const auto byte = [](float c) { return std::uint8_t(std::lround(255 * c)); };
   const std::uint8_t rgba[] = {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
@@ -117,7 +117,7 @@ void clear_outside(Image& image, const Box& box, Colour colour) {
         std::copy_n(rgba, 4, image.pixel(x, y));
 }
 
-// one line where that has room for it, else two: parted where an event ends, or between words
+// the caption in one line if it fits, else in two, divided after an event or between words
 std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string& said, double width,
                                         const TextStyle& style) {
   if (canvas.measure(plain(said), style).width <= width) return {said};
@@ -208,7 +208,7 @@ std::vector<Colour> Stage::cell_colours(const record::Frame& frame) const {
 std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
   if (of_cells(style_.colour_by)) return {};
   auto colours = colours_of(frame);
-  // what moves in time knows no forces: its rods are as wide as the others
+  // frames of a motion in time have no forces: their rods are grey, and as wide as the others
   if (colours.empty() && bar_)
     colours.assign(std::size_t(frame.nodes.cols()), bar_->scale(record::unknown));
   return colours;
@@ -219,7 +219,7 @@ std::optional<ArrowKey> Stage::arrow_key() const {
   return render::arrow_key(run_, survey_.largest_load_N);
 }
 
-// where the boundary is as it was, but the shell is not
+// whether the shell has moved but its boundary has not
 bool Stage::changed(const record::Frame& frame) const {
   constexpr double least = 0.01;  // of the length scale
   return frame.nodes.cols() == survey_.first.nodes.cols() &&
@@ -244,7 +244,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   if (!drawing.laths_mm.empty() && look.rod == Appearance{}.rod) drawing.rod_colour = lath_ink;
   drawing.joint_diameter_mm =
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
-  // bolts are narrower than their laths
+  // the bolts of laths are narrower than the laths
   if (!drawing.laths_mm.empty() && look.joint_mm > 0)
     drawing.joint_diameter_mm = 0.5 * *std::ranges::max_element(drawing.laths_mm);
   drawing.cell_colours = cell_colours(frame);
@@ -252,9 +252,9 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   // a red joint would look like tension
   if (style_.colour_by == ColourBy::axial_force && look.joint == Appearance{}.joint)
     drawing.joint_colour = look.rod;
-  // colours need some width to be seen
+  // rods are wider so that their colours are visible
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
-  // where both boundaries coincide the stronger one hides the fainter
+  // the actuated boundary is drawn last and covers the original one where they coincide
   if (look.rings) {
     if (original_boundary_shown(frame) && frame.actuation > 0)
       drawing.rings.push_back({run_.original_boundary, std::max(0.6, thin), original_ink, false});
@@ -264,7 +264,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   if (look.supports && drawing.joint_diameter_mm > 0)
     put_supports(run_, frame, survey_.supported, look, drawing);
   if (look.ghost && changed(frame))
-    // behind what moved away from it, whose colours it would cover from above
+    // behind the moved shell, whose colours it would cover if seen from above
     drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
                               0.8 * drawing.rod_diameter_mm, ghost_ink,
                               std::max(0.25 * run_.spacing_mm, survey_.largest_move_mm)});
@@ -279,7 +279,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.ground = look.floor && style_.views.empty();
   drawing.background = look.background;
   if (is_dark(look.background)) {
-    // a little lighter than what is far out
+    // the ground is a little lighter than the background
     const auto lighter = [](float c) { return std::lerp(c, 1.f, 0.09f); };
     drawing.ground_colour = {lighter(look.background.r), lighter(look.background.g),
                              lighter(look.background.b)};
@@ -294,7 +294,7 @@ Result<Image> Stage::draw_views(Renderer& renderer, const ShownFrame& shown) con
   const DrawQuality quality = draw_quality(style_);
   if (panels_.size() == 1) {
     auto picture = renderer.draw(drawn, camera(shown.at), quality, style_.width(), style_.height());
-    // what is larger than its panel ends at the panel's edge
+    // a shell that is larger than its panel ends at the panel's edge
     if (picture && !layout_.view.inset(-1).contains(shell_box()))
       clear_outside(*picture, layout_.view, style_.look.background);
     return picture;
@@ -330,8 +330,8 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
     canvas.text(plain(lines[k]),
                 {layout_.title.x, layout_.title.y + (double(k) + 0.5) * line_height}, title);
 
-  // columns of fixed width, so that the words do not move while the numbers run; what does not
-  // fit is left out
+  // columns of fixed width, so that texts do not move while their numbers change; those that do
+  // not fit are left out
   double x = layout_.state.x;
   for (const std::string& caption : state_captions(shown.frame)) {
     const double width = canvas.measure(caption, line).width;
@@ -357,7 +357,7 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
   if (bar_ && !layout_.colour_bar.empty())
     draw_colour_bar(canvas, layout_.colour_bar, *bar_, 0.95 * layout_.font_size);
   if (!layout_.inset.empty()) {
-    // the word above it, where it is large enough to be made smaller by that
+    // a name above the inset, if it is large enough
     Box inset = layout_.inset;
     if (inset.width > 11 * layout_.font_size) {
       const double size = 0.75 * layout_.font_size, line = 1.3 * size;
@@ -371,7 +371,8 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
     const double font = 0.95 * layout_.font_size;
     Plot bins = bins_plot(survey_, long(run_.cells.size()), shown.frame, style_.bins_range, font);
     Box above = layout_.plot, below = above;
-    // the deviations are much larger than the change of the means: below, on an axis of its own
+    // standard deviations are much larger than the change of the means, which is therefore shown
+    // below on an axis of its own
     if (style_.colour_by == ColourBy::K_change && above.height > 24 * font) {
       above.height *= 0.62;
       below = {below.x, above.bottom(), below.width, below.height - above.height};

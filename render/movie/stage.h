@@ -1,6 +1,6 @@
-// One run set up for showing: cameras, ground, colours and captions, fixed over all its frames. A
-// movie, a still and a window take a frame from here as geometry, and finish the picture drawn of
-// it with captions and legends. It stores no frame but the first: any other is handed to it.
+// The stage of a run: cameras, ground, colours and captions, which are fixed over all its frames.
+// Movies, stills and the window get the geometry of a frame from it, and draw captions and legends
+// over the rendered picture by it. Of the frames it stores only the first.
 #pragma once
 
 #include <functional>
@@ -18,14 +18,17 @@
 
 namespace gridshell::render {
 
-/// Whether a run can be shown: it has frames, each with a position for every node and, where K is
-/// shown, one for every cell; some frame knows what is to be coloured; the picture has a size.
-/// Errors: Fault::bad_input naming the frame or what is lacking.
+// Checks of a run and a style. Errors: Fault::bad_input with the frame or with what is missing.
+
+/// Whether a run can be shown: it passes the following checks for all its frames and has at least
+/// one.
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style);
-/// Whether any frame knows what is to be coloured.
+/// Whether some frame has the values that are to be coloured.
 Result<void> check_coloured(const RunSummary& survey, const MovieStyle& style);
+/// Whether size and zoom of the picture are in their ranges.
 Result<void> check_size(const MovieStyle& style);
-/// `at`: the frame's position in the run.
+/// Whether a frame, number `at` of the run, has a finite position for every node and, if K□ is
+/// shown, its value for every cell.
 Result<void> check_frame(const record::Layout& layout, const record::Frame& frame, int at,
                          const MovieStyle& style);
 
@@ -35,10 +38,11 @@ struct ShownFrame {
   int at = 0;
 };
 
+/// A run with everything that its pictures have in common.
 class Stage {
  public:
-  /// The layout outlives the stage, whose run is showable. The colour bar is the survey's own
-  /// unless one is given that several runs share.
+  /// The stage of a run that check_showable() accepts, with the summary of its frames. The layout
+  /// must outlive the stage. `shared`: a common colour bar of several runs instead of its own.
   Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& style,
         const std::optional<ColourBar>& shared = std::nullopt);
   /// The stage of a run in memory.
@@ -50,26 +54,27 @@ class Stage {
   const FrameLayout& layout() const { return layout_; }
   const RunSummary& survey() const { return survey_; }
   const ProgressAxis& progress() const { return progress_; }
-  /// over all frames; none when nothing is coloured
+  /// the colour bar for all frames; empty if nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
-  /// of the arrows of loads; none when there are none
+  /// the scale of the arrows of loads; empty if there are none
   std::optional<ArrowKey> arrow_key() const;
   double pixels_per_mm() const { return framings_.front().pixels_per_mm(); }
-  /// what the shell covers over all frames, in pixels
+  /// the box that contains the shell in all frames, in pixels
   const Box& shell_box() const { return framings_.front().seen(); }
 
-  /// what to draw of a frame, and from where
+  /// the geometry of a frame
   Drawing drawing(const record::Frame& frame) const;
+  /// the camera of frame `at`
   Camera camera(int at) const;
 
-  /// The whole picture of a frame, all views of it, captions and legends. Errors: the renderer's.
+  /// The complete picture of a frame with all views, captions and legends. Errors: the renderer's.
   Result<Image> draw(Renderer& renderer, const ShownFrame& shown) const;
   /// The picture without captions and legends.
   Result<Image> draw_views(Renderer& renderer, const ShownFrame& shown) const;
 
-  /// Draws captions, colour bar, top view and scale bar of a frame over its picture.
+  /// Draws captions and legends of a frame over its picture.
   void finish(Image& picture, const ShownFrame& shown) const;
-  /// Draws captions and legends onto any canvas of the picture's size.
+  /// Draws captions and legends of a frame on a canvas of the picture's size.
   void draw_overlay(Canvas& canvas, const ShownFrame& shown) const;
 
  private:
@@ -92,20 +97,19 @@ class Stage {
   double ground_z_mm_ = 0;
 };
 
-// A shell as lines: what is hidden behind cells is faded, what is not is strong, and all of it can
-// be enlarged without end.
+// Shells as lines (vector graphics), in which parts behind cells are faded.
 
-/// Whether each point is hidden from the camera by a cell of the drawing (its four joints' two
-/// triangles), which lies before it by more than `slack_mm`.
+/// Whether each point is hidden from the camera: a cell of the drawing (two triangles between its
+/// four joints) is in front of it by more than `slack_mm`.
 std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
                                 const Eigen::Matrix3Xd& points, double slack_mm);
 
-/// Draws rods, rings, nets next to them, joints, marks and arrows of `drawing` into a box of the
-/// canvas as the camera sees them: hidden ones first, faded by the drawing's far_fade (1: left
-/// out).
+/// Draws rods, rings, ghosts, joints, marks and arrows of `drawing` into a box of the canvas as the
+/// camera sees them. Hidden ones are drawn first, faded by the larger of 0.55 and the drawing's
+/// far_fade; at a far_fade of 1 they are left out.
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera);
 
-/// Draws the shell later: the returned function keeps the drawing and its layout.
+/// A function that draws the shell; it owns copies of the drawing and its layout.
 std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera);
 
 }  // namespace gridshell::render

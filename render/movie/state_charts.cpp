@@ -15,10 +15,10 @@
 namespace gridshell::render {
 namespace {
 
-constexpr double half_bar = 0.22;  // of the distance between states
+constexpr double half_bar = 0.22;  // over the distance between states
 constexpr int pieces = 40;
 
-/// Half a cosine wave from one height to the other.
+/// Adds half a cosine wave from one height to another.
 void add_flank(Series& curve, double from_x, double from, double to_x, double to) {
   for (int k = 0; k <= pieces; ++k) {
     const double s = double(k) / pieces;
@@ -31,10 +31,10 @@ using record::PhasePoint;
 using record::StateClass;
 using record::StateCount;
 
-constexpr double high = 0.84;  // of the picture, over its width
+constexpr double high = 0.84;  // height of the picture over its width
 constexpr Colour grey_ink{0.42f, 0.42f, 0.45f, 1};
 
-/// How large a class is drawn, and where next to the point, in steps between points.
+/// The size of a class's marker and its position next to the point, in steps between points.
 struct ClassMark {
   StateClass kind;
   const char* name;
@@ -46,8 +46,8 @@ constexpr std::array<ClassMark, 4> marks{{
     {StateClass::iii, "*iii*", 5.6, -0.2, -0.17},
     {StateClass::iv, "*iv*", 5.2, 0.2, -0.17},
 }};
-constexpr double others_right = 0.3;  // of the number next to them
-constexpr double most_numbered = 12;  // columns, between which there is room for these numbers
+constexpr double others_right = 0.3;  // position of the number of other states, in steps
+constexpr double most_numbered = 12;  // with more columns there is no room for these numbers
 
 /// The smallest distance between different values.
 double step_of(std::vector<double> values) {
@@ -59,7 +59,7 @@ double step_of(std::vector<double> values) {
   return step > 0 ? step : 1;
 }
 
-/// What any search of a footprint found.
+/// The combined result of two searches of one footprint.
 StateCount any(const StateCount& a, const StateCount& b) {
   return {std::max(a.states, b.states), a.met + b.met, a.met_confined + b.met_confined};
 }
@@ -102,7 +102,7 @@ class PhasePlot {
     plot_.x.high = long_leg + 0.75 * leg_step_;
     plot_.y.low = few - 0.7 * rod_step_;
     plot_.y.high = many + 0.7 * rod_step_;
-    // as many as rows of data, and some more, as steps are rounded up
+    // as many ticks as rows of data, and some more, since steps are rounded up
     plot_.y.ticks = int(std::min(12.0, (many - few) / rod_step_ + 3));
   }
 
@@ -120,7 +120,7 @@ class PhasePlot {
   }
 
  private:
-  /// L_d over n at one shortest leg.
+  /// Adds the line of L_d over n for one shortest leg.
   void add_line(double leg) {
     constexpr int pieces = 120;
     Series line =
@@ -150,19 +150,19 @@ class PhasePlot {
     plot_.series.push_back(std::move(series));
   }
 
-  /// A dot at each footprint that its marks are arranged around.
+  /// Adds a dot at each footprint, around which its marks are arranged.
   void add_places() {
     Series dots = mark_series("", grey_ink, Marker::circle, 1.6);
     for (const PhasePoint& point : points_) dots.add(point.longest_leg, point.rods);
     plot_.series.push_back(std::move(dots));
   }
 
-  /// A row of the legend that says how to read a sign.
+  /// Adds a row of the legend that explains a marker.
   void add_key(const std::string& text, Marker marker, bool hollow) {
     plot_.series.push_back(mark_series(text, grey_ink, marker, 5, hollow));
   }
 
-  /// How many more states than the paper's classes, where there is room for it.
+  /// Adds the numbers of states that are in none of the paper's classes, if there is room for them.
   void add_others() {
     Series only = mark_series("other states only", grey_ink, Marker::diamond, 4, true);
     for (const PhasePoint& point : points_)
@@ -192,9 +192,9 @@ class PhasePlot {
 };
 
 constexpr Colour ring_ink{0.55f, 0.55f, 0.58f, 1};
-constexpr double room = 1.12;  // of the boundary, that mirrors extend past it
+constexpr double room = 1.12;  // length of mirrors over the diameter of the boundary
 
-/// Directions of the mirrors of a group whose name says where they are, degrees.
+/// Directions of the mirrors of a symmetry group, degrees.
 std::vector<double> mirrors_of(const std::string& group) {
   if (group == "C4v") return {0, 45, 90, 135};
   if (group == "C2v_axes") return {0, 90};
@@ -220,8 +220,8 @@ Plot barrier_plot(const record::StateTables& states) {
                            states.search.judged_edges);
   plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
   plot.legend = LegendPosition::none;
-  // of the states as everywhere else; of passes only the height above their states is known, which
-  // on another mesh hardly differs, as their energies do
+  // energies of states are those of all tables. Passes were computed on another mesh: only their
+  // heights above the states are used, which hardly depend on the mesh, as the energies do
   std::map<int, double> energy;
   const auto level_of = [&](const record::StateName& state) {
     return states.rows.at(std::size_t(int(state)) - 1).energy_mJ();
@@ -237,7 +237,7 @@ Plot barrier_plot(const record::StateTables& states) {
       lowest = std::min({lowest, energy[one.from], energy[one.to]});
       highest = std::max(highest, pass_of(one));
     }
-  const double off = 0.015 * (highest - lowest);  // of words from what they name
+  const double off = 0.015 * (highest - lowest);  // distance of names from bars and passes
   std::map<int, double> place;
   for (const auto& [state, level] : energy) place.emplace(state, double(place.size() + 1));
   std::size_t colour = 0;
@@ -265,7 +265,7 @@ Plot barrier_plot(const record::StateTables& states) {
   plot.x.low = 0.5;
   plot.x.high = double(place.size()) + 0.5;
   if (lowest <= highest) {
-    // room for what is above passes and below states
+    // room for the texts above passes and below states
     plot.y.low = lowest - 0.16 * (highest - lowest);
     plot.y.high = highest + 0.2 * (highest - lowest);
   }

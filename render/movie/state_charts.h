@@ -1,4 +1,5 @@
-// How the states of a shell are drawn, and the barriers between them.
+// Charts of the states of a shell: barriers, bifurcation diagrams, load factors, phase diagrams,
+// maps of states and graphs of transitions.
 #pragma once
 
 #include <filesystem>
@@ -14,81 +15,78 @@
 
 namespace gridshell::render {
 
-/// A class of states has one colour and one marker in all pictures.
+/// Colour and marker of a class of states, the same in all pictures.
 struct ClassLook {
   Colour colour;
   Marker marker;
 };
 ClassLook look_of(record::StateClass kind);
 
-/// The states between which passes are known, in the order of their number, each a bar at its
-/// energy on the mesh of the passes; from bar to bar a curve over the pass, with its height above
-/// the lower one. Passes between images of one state and to states that were not met are left out.
+/// The states between which passes are known, in the order of their number: each is a bar at its
+/// energy, and a curve over each pass joins two bars, with its height above the lower state. Passes
+/// between images of one state and to states that are not in the library are left out.
 Plot barrier_plot(const record::StateTables& states);
 
-// A bifurcation diagram as a picture.
-
-/// What the two axes of one panel show.
+/// The quantity over the path in a panel of a bifurcation diagram.
 enum class BranchAxis { height, amplitude };
 
-/// Height or amplitude over the boundary's radius, or over progress where there is none: stable
-/// parts full, others dashed; bifurcations, limit points and ends are marked. Without names of
-/// curves: the legend is the figure's.
+/// A bifurcation diagram: height or amplitude over the boundary's radius, or over progress if there
+/// is none. Stable parts are solid, others dashed; bifurcations, limit points and ends are marked.
+/// It has no legend.
 Plot branches_plot(const std::vector<record::BranchPoint>& points, BranchAxis axis);
 
-/// Both panels next to one another, `<stem>.png`, `.svg` and `.pdf`; where what happens lies within
-/// a sixth of the path, two more below show that part alone.
+/// Writes both panels side by side with a legend as `<stem>.png`, `.svg` and `.pdf`. If all events
+/// are within a sixth of the path, two more panels below show only that part. Errors: Fault::io.
 Result<void> write_branches(const std::filesystem::path& stem,
                             const std::vector<record::BranchPoint>& points,
                             const std::string& title);
 
-/// The load factor over a joint's displacement, a curve per case, dashed where it is not stable;
-/// limit points and bifurcations are marked, and where the rods reach their strength, with its
-/// error.
+/// The load factor over a joint's displacement, one curve per case, dashed where it is unstable.
+/// Limit points and bifurcations are marked, and so are the points at which the rods reach their
+/// strength, with their errors. If the critical factors of the cases differ much, factors are
+/// divided by them.
 Plot load_plot(const std::vector<record::LoadPoint>& points,
                const std::vector<record::LoadRow>& cases, const std::string& title);
 
-// Which stable states footprints of so many rods and so long legs have [Baek 2018, Fig. 2B].
-
-/// L_d along x, n upwards. At each point a marker a class of the paper, filled where trials met it
-/// and hollow where only symmetric forms led to it, and the number of other states; the lines of
-/// the shortest leg l_d = 1, 0, -1. A cross where nothing was found. Of several searches of one
-/// footprint what any found.
+/// The phase diagram of stable states [Baek 2018, Fig. 2B] over the longest leg L_d and the number
+/// n of rods per direction. Each point has a marker for each class of the paper that was found
+/// (filled: by random trials, hollow: only by trials with an imposed symmetry) and the number of
+/// other states; a cross if nothing was found. Several searches of one footprint are combined.
+/// Lines are those of the shortest leg l_d = 1, 0, -1.
 Plot phase_plot(const record::PhaseDiagram& diagram, const std::string& title);
 
-/// Writes it as `<stem>.png`, `.svg` and `.pdf`.
+/// Writes the phase diagram as `<stem>.png`, `.svg` and `.pdf`. Errors: Fault::io.
 Result<void> write_phase_chart(const std::filesystem::path& stem,
                                const record::PhaseDiagram& diagram, const std::string& title,
                                const Print& print);
 
-// A state of a shell seen from above [Baek 2018, Fig. 2C]: which of its rods are of the first order
-// and which planes it is symmetric in.
+// The map of a state: the shell seen from above [Baek 2018, Fig. 2C], with rods in the first and in
+// higher buckling modes and its planes of symmetry.
 
-/// Rods without and with inflections.
+/// Colours of rods without and with inflections.
 inline constexpr Colour first_order_ink{0.10f, 0.10f, 0.12f, 1},
     higher_order_ink{0.85f, 0.45f, 0.10f, 1};
 inline constexpr Colour mirror_ink{0.16f, 0.42f, 0.78f, 1};  ///< of planes and axes of symmetry
 
-/// The numbers of StateRow::inflections, rod by rod; empty where it is none of those.
+/// The numbers in StateRow::inflections, rod by rod; empty if there are none.
 std::vector<int> inflections_of(const record::StateRow& row);
 
-/// Units of the canvas a millimetre at which the shell fills the box.
+/// The scale (units of the canvas per millimetre) at which the shell fills the box.
 double state_map_scale(const Box& box, const record::Layout& layout);
 
-/// The rods of a frame in equilibrium, its boundary and, dashed, the mirrors of its group (a square
-/// in the middle where it is turns by 90 degrees alone), in the middle of the box.
+/// Draws the rods and the boundary of a state in the middle of the box, with the mirror planes of
+/// its symmetry group (dashed), or a square in the middle if the group has only rotations by 90
+/// degrees.
 void draw_state_map(Canvas& canvas, const Box& box, double units_per_mm,
                     const record::Layout& layout, const record::Frame& frame,
                     const record::StateRow& row);
 
-// Which state of a shell goes to which when a hand disturbs it, as a graph.
-
-/// States at their height and energy, the ones that were disturbed with their name next to them and
-/// below the axes as small shells from above. Arrows lead to where they went, blue where the
-/// boundary was released and contracted again, red where joints were pushed, with how often. What
-/// came back to where it was is next to its shell, and so is what went to a state that the
-/// search did not meet.
-/// `run` has a frame per state; `title` (plain text) is above. `<stem>.png`, `.svg`, `.pdf`.
+/// Writes the graph of transitions between the states of a shell as `<stem>.png`, `.svg` and
+/// `.pdf`. States are at their height and energy. Those that were perturbed have names and are also
+/// drawn below as small shells from above. Arrows lead to the states that they became: blue if the
+/// boundary was released and contracted again, red (with the number of times) if joints were
+/// pushed. Next to the small shell is how often the state returned to itself or became one that is
+/// not in the library. `run` has a frame per state; `title` is plain text. Errors: Fault::io.
 Result<void> write_transition_graph(const std::filesystem::path& stem,
                                     const record::StateTables& states,
                                     const record::Trajectory& run, const std::string& title,

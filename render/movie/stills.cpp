@@ -16,7 +16,7 @@
 namespace gridshell::render {
 namespace {
 
-/// Panels side by side, as many as are wide enough to print.
+/// Number of panels per row, so that they are wide enough in print.
 int columns_of(const MovieStyle& style, int panels) {
   constexpr int most = 3;
   constexpr double bar_mm = 15, least_mm = 45;
@@ -25,7 +25,7 @@ int columns_of(const MovieStyle& style, int panels) {
   return std::min({panels, most, fit});
 }
 
-// side by side, panels need no more ground than the shell takes: pixels of that part
+// the part of a picture around the shell, in pixels, which panels side by side show
 Box part_around(const Image& picture, const Box& shell) {
   const double margin = 0.05 * shell.width;
   const int x0 = std::max(0, int(shell.x - margin)), y0 = std::max(0, int(shell.y - margin));
@@ -43,7 +43,7 @@ Image around(const Image& picture, const Box& shell) {
   return part;
 }
 
-// lines of a complete picture, of which the part fills the panel
+// the lines of a complete picture, scaled so that `part` of it fills the panel
 std::function<void(Canvas&, const Box&)> lines_around(
     std::function<void(Canvas&, const Box&)> lines, const MovieStyle& style, const Box& part) {
   return [=, width = style.width(), height = style.height()](Canvas& canvas, const Box& box) {
@@ -55,8 +55,8 @@ std::function<void(Canvas&, const Box&)> lines_around(
   };
 }
 
-/// By how much panels are larger than the shell in its still, where the figure is printed so wide;
-/// 1: they are not.
+/// Factor by which a shell needs more pixels in its panel than in its still, for the printed width
+/// of the figure; 1: no more.
 double panel_scale(const Stage& stage, int columns) {
   constexpr double most = 4, around_panels = 1.1;
   const MovieStyle& style = stage.style();
@@ -65,7 +65,7 @@ double panel_scale(const Stage& stage, int columns) {
   return scale > 1.1 ? std::min(scale, most) : 1;
 }
 
-/// A panel has no room for a legend: its marks are explained next to its caption.
+/// The caption with the frame's interpenetrations and loads, since a panel has no legend for them.
 std::string with_marks(const std::string& caption, const record::Frame& frame,
                        const Appearance& look) {
   const std::string contacts = contact_caption(frame),
@@ -85,7 +85,7 @@ MovieStyle still_style(MovieStyle style) {
 
 void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& shown,
                        std::string caption) {
-  // there is a row for it
+  // the caption has one row
   if (const auto end = caption.find('\n'); end != std::string::npos) caption.replace(end, 1, ": ");
   stage.draw_overlay(canvas, shown);
   const FrameLayout& layout = stage.layout();
@@ -98,7 +98,8 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
   const TextStyle fitted = canvas.fitted(caption, room.width, text);
   const Box said = canvas.text(caption, {room.x, room.bottom() - line}, fitted);
-  // one row each, contacts as the marks that they are in the picture
+  // loads and interpenetrations have a row each, the latter with the mark that they have in the
+  // picture
   const double size = fitted.size;
   double y = said.bottom() + size;
   if (const auto loads = load_caption(shown.frame); !loads.empty() && stage.style().look.loads) {
@@ -144,7 +145,7 @@ Result<std::vector<std::filesystem::path>> write_stills(
   figure.pixels_per_mm = stage.pixels_per_mm();
   figure.colour_bar = stage.colour_bar();
   figure.arrow = stage.arrow_key();
-  // side by side a shell may fill more pixels than in its own still
+  // in a printed figure a panel may need more pixels than the shell has in its still
   MovieStyle larger = style;
   const double enlarged = panel_scale(stage, figure.columns);
   for (int& side : larger.size) side = int(std::lround(enlarged * side));

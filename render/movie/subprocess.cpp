@@ -19,7 +19,7 @@ extern char** environ;
 namespace gridshell::render {
 namespace {
 
-constexpr int poll_ms = 100;  // between two looks at whether to stop
+constexpr int poll_ms = 100;  // time between two tests of the watch
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
@@ -36,7 +36,7 @@ struct DescriptorPair {
   }
 };
 
-// stdout to nowhere, stderr into a pipe, stdin from a socket or from nowhere
+// starts a program with stdout to /dev/null, stderr to a pipe and stdin from a socket or /dev/null
 int spawn(const std::vector<std::string>& arguments, int input, int words, pid_t& child) {
   std::vector<char*> list;
   for (const std::string& word : arguments) list.push_back(const_cast<char*>(word.c_str()));
@@ -60,7 +60,7 @@ std::string last_line(std::string text) {
   return start == std::string::npos ? text : text.substr(start + 1);
 }
 
-// whole lines; what is left of the last one waits for its end
+// passes complete lines to `heard`; `line` stores the last one until it is complete
 void emit_lines(std::string_view said, std::string& line, const LineListener& heard) {
   for (const char c : said) {
     if (c != '\n' && c != '\r') {
@@ -83,7 +83,7 @@ Result<Subprocess> Subprocess::start(const std::vector<std::string>& arguments, 
   if (::pipe2(ends, O_CLOEXEC) != 0) return failed(errno);
   words.ours = ends[0], words.theirs = ends[1];
   if (input == Input::fed) {
-    // a socket can be written to without a signal where nobody reads any more
+    // a socket, since writing to it raises no signal when the reader has ended
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return failed(errno);
     fed.ours = ends[0], fed.theirs = ends[1];
   }
@@ -110,14 +110,14 @@ Subprocess::~Subprocess() {
   wait();
 }
 
-/// Takes what it wrote to stderr; false once that is closed.
+/// Reads from the program's stderr; returns false when that is closed.
 bool Subprocess::listen(const LineListener& heard) {
   char block[4096];
   const ssize_t got = ::read(stderr_pipe_, block, sizeof block);
   if (got < 0 && errno == EINTR) return true;
   if (got <= 0) return false;
   stderr_text_.append(block, std::size_t(got));
-  // only the end counts
+  // only the last line is reported
   if (stderr_text_.size() > (1 << 16)) stderr_text_.erase(0, stderr_text_.size() - (1 << 15));
   if (heard) emit_lines(std::string_view(block, std::size_t(got)), line_, heard);
   return true;
@@ -130,7 +130,7 @@ bool Subprocess::feed(std::span<const std::uint8_t> bytes, const Watch& watch) {
     const int ready = ::poll(waiting, 2, poll_ms);
     if (ready < 0 && errno != EINTR) return false;
     if (ready <= 0) continue;
-    // a child that waits to be heard takes nothing
+    // a program whose stderr is full reads no input
     if ((waiting[1].revents & POLLIN) != 0 && !listen({})) return false;
     if ((waiting[0].revents & (POLLERR | POLLHUP)) != 0) return false;
     if ((waiting[0].revents & POLLOUT) == 0) continue;

@@ -1,4 +1,4 @@
-// A program of another maker, run without a shell.
+// Other programs (ffmpeg), run without a shell.
 #pragma once
 
 #include <sys/types.h>
@@ -14,12 +14,13 @@
 
 namespace gridshell::render {
 
-/// Takes a line that a child wrote to stderr, as it comes.
+/// Called with every line that a child process writes to stderr.
 using LineListener = std::function<void(const std::string& line)>;
 
-enum class Input { none, fed };
+enum class Input { none, fed };  ///< fed: by Subprocess::feed()
 
-/// A running program, its output discarded. One that has not ended is killed with it.
+/// A running program, whose standard output is discarded. The destructor terminates a program that
+/// is still running.
 class Subprocess {
  public:
   /// Runs `arguments[0]` (a path) with the others as its arguments. Errors: Fault::io.
@@ -28,13 +29,13 @@ class Subprocess {
   Subprocess& operator=(Subprocess&&) = delete;
   ~Subprocess();
 
-  /// Writes all of it to the child's input, as it takes it. False when it takes no more or `watch`
-  /// asks to stop: end() then says why.
+  /// Writes all bytes to the program's input. Returns false if the program reads no more or `watch`
+  /// is cancelled; end() then reports the reason.
   bool feed(std::span<const std::uint8_t> bytes, const Watch& watch);
 
-  /// Ends its input and waits; `heard` is called on this thread. Errors: Fault::io when it fails
-  /// (with the last line it wrote to stderr) or is killed; Fault::cancelled when `watch` asks to
-  /// stop, which ends it.
+  /// Closes the program's input and waits for its end; `heard` is called on this thread. Errors:
+  /// Fault::io if it fails (with the last line that it wrote to stderr) or is killed;
+  /// Fault::cancelled if `watch` is cancelled, which terminates it.
   Result<void> end(const Watch& watch, const LineListener& heard = {});
 
  private:
@@ -46,10 +47,10 @@ class Subprocess {
   std::string name_;
   pid_t child_ = -1;
   int stdin_pipe_ = -1, stderr_pipe_ = -1;  ///< descriptors; -1: closed
-  std::string stderr_text_, line_;          ///< on stderr; what of its last line came so far
+  std::string stderr_text_, line_;          ///< text from stderr; its last line, still incomplete
 };
 
-/// Runs a program without input to its end. Errors: as of Subprocess.
+/// Runs a program without input to its end. Errors: those of Subprocess.
 Result<void> run_subprocess(const std::vector<std::string>& arguments, const Watch& watch,
                             const LineListener& heard = {});
 

@@ -17,7 +17,7 @@ namespace {
 
 using record::SweepTable;
 
-/// 1.0 reads 1; a string loses its quotes.
+/// A value of a key as short text: 1.0 as 1, a string without its quotes.
 std::string short_text(const std::string& value) {
   if (value.size() > 1 && value.front() == '"') return value.substr(1, value.size() - 2);
   if (value.ends_with(".0")) return value.substr(0, value.size() - 2);
@@ -35,15 +35,15 @@ constexpr Colour grey_ink{0.45f, 0.45f, 0.48f, 1};
 /// One run in the picture.
 struct SweepMark {
   double x = 0, y = 0;
-  std::size_t place = 0;  // of its key on the scale
+  std::size_t place = 0;  // index of its key on the scale
   std::string limit;
   bool stable = true;
 };
 
-/// What a case's runs are in the picture.
+/// The runs of one case in the picture.
 struct Curve {
   std::vector<SweepMark> spots;
-  std::vector<double> lost;  // x where there is no state
+  std::vector<double> lost;  // x of runs without the figure
 };
 
 Curve curve_of(const SweepTable& table, const SweepScale& scale, const SweepView& view,
@@ -87,7 +87,7 @@ Series mean_of(const Curve& curve) {
     }
     mean.add(x / double(n), y / double(n));
   }
-  // keys may fall while what is on the axis grows
+  // the figure along x may decrease with the key
   if (!mean.x.empty() && mean.x.front() > mean.x.back()) {
     std::ranges::reverse(mean.x);
     std::ranges::reverse(mean.y);
@@ -127,7 +127,7 @@ void add_curve(const Curve& curve, const std::string& name, std::size_t index, b
   plot.add(std::move(crossed));
 }
 
-/// Rows of the legend that say what the marks mean.
+/// Adds rows of the legend that explain the marks.
 void add_mark_legend(const std::vector<Curve>& curves, Plot& plot) {
   std::vector<SweepMark> spots;
   for (const Curve& curve : curves)
@@ -168,7 +168,8 @@ void set_axes(const std::vector<Curve>& curves, Plot& plot) {
   plot.x.ticks = 8;
 }
 
-/// A line where the curve has left its value at the right, and a row of the legend that says where.
+/// Adds a line at the onset of a curve's deviation from its value at the right, and a row of the
+/// legend with its position.
 void mark_departure(const Series& curve, Colour colour, double fraction, Plot& plot) {
   const auto at = deviation_onset(curve.x, curve.y, fraction);
   if (!at) return;
@@ -252,7 +253,7 @@ double number_of(const SweepTable::Row& row, const std::string& figure) {
   const auto* found = row.result.figure(figure);
   const double number =
       found ? record::number_of(*found) : std::numeric_limits<double>::quiet_NaN();
-  // its sign says whether it is tension, which differs from edge to edge
+  // its sign (tension or compression) differs from edge to edge
   return figure == "largest_strain" ? std::abs(number) : number;
 }
 
@@ -309,8 +310,8 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
     for (const record::LawRow& key : one.keys) {
       std::string power = record::with_error(key.exponent, key.error, "");
       if (power.starts_with('-')) power.replace(0, 1, "−");
-      // the law is a line over its only key, a cross at each point where it has more; a row of the
-      // legend a key
+      // a law of one key is a line, one of several keys a cross at each point; every key has a row
+      // of the legend
       const bool first = &key == &one.keys.front();
       Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
                                series_colour(k), one_key ? 1 : 0);
@@ -340,7 +341,7 @@ Plot sweep_plot(const SweepTable& table, const SweepView& view) {
     add_curve(curves[k], name, k, table.has_seeds && !table.axes.empty(), plot);
   }
   set_axes(curves, plot);
-  // what spans decades tends to no limit
+  // curves over several decades have no limit value
   for (std::size_t k = 0; k < cases.size() && !plot.y.logarithmic; ++k)
     mark_departure(mean_of(curves[k]), series_colour(k), view.departure, plot);
   add_mark_legend(curves, plot);

@@ -1,4 +1,5 @@
-// What of a sweep's table a picture needs: numbers on its axes, names with units.
+// Charts of a sweep: a figure (named number) of its runs over one or two keys, and fitted power
+// laws.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +12,11 @@
 
 namespace gridshell::render {
 
-/// The name of a key or a figure as a picture says it, with its unit: "height (mm)".
+/// The label of a key or a figure with its unit, as text with markup: "height (mm)".
 std::string label_of(const std::string& name);
 
-/// One axis of a sweep: its values in their order, as text and as numbers (their indices from 1
-/// where they are no numbers).
+/// One axis of a sweep: its values in the order of the table, as texts and as numbers. Values that
+/// are not numbers have the numbers 1, 2, ..., which the label explains.
 struct SweepScale {
   std::string label;
   std::vector<std::string> texts;
@@ -23,50 +24,50 @@ struct SweepScale {
   bool is_number = true;
 };
 
-/// The scale of axis `k` of a table; of its seeds where it has no axis.
+/// The scale of axis `k` of a table, or of its seeds if it has no axis.
 SweepScale scale_of(const record::SweepTable& table, std::size_t k);
 
-/// A row's position on that scale.
+/// Index of a row's value on the scale of axis `k`.
 std::size_t place_of(const record::SweepTable& table, const SweepScale& scale,
                      const record::SweepTable::Row& row, std::size_t k);
 
-/// A row's figure as a number, NaN where it has none; of largest_strain its size.
+/// A row's figure as a number, NaN if it has none; the absolute value of largest_strain.
 double number_of(const record::SweepTable::Row& row, const std::string& figure);
 
-/// The limit that a row's run met: "locking"; empty: none.
+/// The limit at which a row's run ended: "locking"; empty: none.
 std::string limit_of(const record::SweepTable::Row& row);
 
-/// The cases in their order; one without a name where there are none.
+/// The names of the cases in their order; one empty name if there are no cases.
 std::vector<std::string> cases_of(const record::SweepTable& table);
 
-// A sweep as pictures: a figure of the runs over the key that was swept, or over two of them.
-
-/// What is drawn.
+/// What a chart shows of a sweep.
 struct SweepView {
   std::string figure = {};  ///< "max_deviation"
-  std::string x = {};       ///< a figure instead of the key; empty: the key
-  double departure = 0;    ///< fraction by which a curve has left its value at the right where that
-                           ///< is marked; 0: nowhere
-  std::string title = {};  ///< plain
+  std::string x = {};       ///< a figure along x; empty: the key
+  /// fraction by which a curve differs from its value at the right where this is marked; 0: no mark
+  double departure = 0;
+  std::string title = {};  ///< plain text
 };
 
-/// Where y, from the largest x to the smaller ones, first differs from its value there by more than
-/// `fraction` of it: linear between points, in log x where all x are positive. Points that are not
-/// finite are passed over. Empty where it never does.
+/// The largest x at which y differs from its value at the right end by more than `fraction` of it,
+/// interpolated linearly between points, in log x if all x are positive. Points that are not finite
+/// are ignored. Empty if y never does.
 std::optional<double> deviation_onset(const std::vector<double>& x, const std::vector<double>& y,
                                       double fraction);
 
-/// The figure over the one key, a curve a case (the mean over the seeds, each run a mark). Runs
-/// that met a limit are hollow, those that are not stable crossed; where there is no state a grey
-/// cross is on the lower edge. Axes are logarithmic where the numbers are positive and span
-/// more than a factor of 20.
+/// The figure over one key, a curve per case; with seeds the curve is their mean and each run has a
+/// mark. Runs that ended at a limit are hollow, unstable ones crossed; a run without the figure is
+/// a grey cross at the lower edge. An axis is logarithmic if its numbers are positive and span more
+/// than a factor of 20.
 Plot sweep_plot(const record::SweepTable& table, const SweepView& view);
 
-/// The figure over what its power law says, a mark a point, the law itself as a line.
+/// The figure over the first key of its power law, with a mark per point. A law of one key is a
+/// line; one of several keys is a cross at each point. There is at least one law.
 Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view);
 
-/// The figure over two keys as a map, `<stem>.png`, `.svg`, `.pdf`: a panel a case, each cell the
-/// mean over the seeds; crossed where there is no state, dotted where a limit was met.
+/// Writes the figure over two keys as a map, `<stem>.png`, `.svg` and `.pdf`: a panel per case,
+/// each cell the mean over the seeds; crossed if no run has the figure, dotted if a run ended at a
+/// limit. Errors: Fault::io.
 Result<void> write_sweep_map(const std::filesystem::path& stem, const record::SweepTable& table,
                              const SweepView& view);
 

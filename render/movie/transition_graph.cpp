@@ -39,7 +39,8 @@ Box about(Point middle, double half_width, double half_height) {
   return {middle.x - half_width, middle.y - half_height, 2 * half_width, 2 * half_height};
 }
 
-/// The position nearest to `from` for a box so large that is free of all others, inside the frame.
+/// A box of this size near `from`, inside the frame, that overlaps no other box; about `from`
+/// itself if there is none.
 Box free_place(Point from, const Box& size, const std::vector<Box>& taken, const Box& inside) {
   constexpr int directions = 24;
   for (double away = 9; away < 120; away += 3)
@@ -103,7 +104,7 @@ class TransitionGraph {
     plot.y = {.label = "energy (mJ)"};
     Series all;
     for (const Node& node : nodes_) all.add(node.row->height_mm, node.row->energy_mJ());
-    // a margin as wide as a node, and something to show where all are equal
+    // a margin as wide as a node, also if all values are equal
     for (const auto& [values, axis] : {std::pair(&all.x, &plot.x), {&all.y, &plot.y}}) {
       const auto [low, high] = std::ranges::minmax(*values);
       const double room = std::max(0.07 * (high - low), 1e-3 * std::abs(high));
@@ -129,14 +130,14 @@ class TransitionGraph {
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
     entry(Disturbance::released, "boundary released and contracted again");
-    // only of what was pushed more than once a arrow has a number
+    // only transitions that occurred more than once have a number
     const bool numbers = std::ranges::any_of(states_.transitions, [](const Transition& one) {
       return one.by == Disturbance::pushed && one.to != 0 && one.to != one.from && one.count > 1;
     });
     entry(Disturbance::pushed, numbers ? "a joint pushed (number: times)" : "a joint pushed");
   }
 
-  /// A curve a -> b bent through c, with a head at b.
+  /// Draws a quadratic curve from a to b with control point c and a head at b.
   static void arrow(Canvas& canvas, Point a, Point c, Point b, Disturbance by) {
     constexpr int pieces = 24;
     constexpr double head = 5;
@@ -163,7 +164,7 @@ class TransitionGraph {
     const double length = std::max(1e-9, distance(from.at, to.at));
     const Point along{(to.at.x - from.at.x) / length, (to.at.y - from.at.y) / length};
     const bool released = one.by == Disturbance::released;
-    // there and back, and those of either disturbance, bend apart
+    // transitions in both directions, and by both perturbations, are bent differently
     const double bend = (released ? 0.24 : 0.12) * length;
     const Point middle{0.5 * (from.at.x + to.at.x) + bend * along.y,
                        0.5 * (from.at.y + to.at.y) - bend * along.x};
@@ -191,7 +192,7 @@ class TransitionGraph {
     taken_.push_back(about(node.at, node.radius(), node.radius()));
   }
 
-  /// Names next to the states that were disturbed, which stay where they are.
+  /// Writes the names of perturbed states next to them.
   void draw_names(Canvas& canvas, const Box& inside) {
     const TextStyle style{.size = font,
                           .bold = true,
@@ -214,7 +215,7 @@ class TransitionGraph {
     }
   }
 
-  /// How often of all a state came back, or went to one that was not met.
+  /// How often a perturbed state returned to itself or became one that is not in the library.
   std::string fate_of(int state) const {
     int back = 0, lost = 0;
     for (const Transition& one : states_.transitions) {
@@ -242,7 +243,7 @@ class TransitionGraph {
     line(fate_of(row.state), 12, false);
   }
 
-  /// Rods from above, those higher up darker.
+  /// Draws the rods of a state from above, higher ones darker.
   void draw_shell(Canvas& canvas, const StateRow& row, Point middle) const {
     const auto frame = run_.frames[std::size_t(row.state) - 1];
     const Eigen::Matrix3Xd& ring = run_.layout.actuated_boundary;
@@ -264,7 +265,7 @@ class TransitionGraph {
   const record::Trajectory& run_;
   std::vector<Node> nodes_;
   std::vector<int> disturbed_;
-  std::vector<Box> taken_;  // where no name may be
+  std::vector<Box> taken_;  // boxes that names must not overlap
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr Colour front_grey{0.72f, 0.74f, 0.78f, 1};
 
 bool is_auto(const std::string& method) { return method.starts_with(auto_prefix); }
 
-/// "10^{−3}" of "auto 1e-03"
+/// The tolerance in the name of a method: "10^{−3}" from "auto 1e-03".
 std::string power_of(const std::string& method) {
   const double tolerance = std::stod(method.substr(std::string(auto_prefix).size()));
   return fmt::format("10^{{−{}}}", -std::lround(std::log10(tolerance)));
@@ -29,12 +29,12 @@ Series style_of(std::size_t index, const std::string& name) {
   Series series = line_series(name, series_colour(index));
   series.marker = series_marker(index);
   series.marker_size = 4.2;
-  // more methods than colours: the second round is dashed
+  // there are more methods than colours: later ones are dashed
   if (index >= 7) series.dash = {4, 2};
   return series;
 }
 
-/// The error that a method's mesh would leave.
+/// The error of a mesh itself: that of the method `bend` on it; NaN: not known.
 double mesh_error(const std::vector<AccuracyRow>& rows, int edges) {
   for (const AccuracyRow& row : rows)
     if (row.method == "bend" && row.edges_per_segment == edges) return row.error;
@@ -63,7 +63,7 @@ Series front_of(const std::vector<AccuracyRow>& rows) {
   return front;
 }
 
-/// A curve a method, of the rows that are drawn.
+/// Adds a curve per method, of the rows that are drawn.
 void add_methods(const std::vector<AccuracyRow>& rows, const std::vector<std::string>& names,
                  bool over_time, Plot& plot) {
   for (std::size_t m = 0; m < names.size(); ++m) {
@@ -77,7 +77,7 @@ void add_methods(const std::vector<AccuracyRow>& rows, const std::vector<std::st
   }
 }
 
-/// Methods that were stopped: hollow, at the limit.
+/// Adds hollow marks for methods that were stopped, and a line at the time limit.
 void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::string>& names,
                  Plot& plot) {
   double limit = 0;
@@ -93,7 +93,7 @@ void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::st
   if (limit > 0) plot.references.push_back({.horizontal = false, .at = limit, .label = "too slow"});
 }
 
-/// `auto` in one mark for all tolerances that give the same meshes.
+/// Adds the marks of `auto`, one for all tolerances that give the same meshes.
 void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
   Series marks = mark_series("auto, by tolerance", ink, Marker::circle, 9, true);
   std::vector<Note> notes;
@@ -113,7 +113,7 @@ void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
                      .align_y = AlignY::middle});
   }
   if (marks.x.empty()) return;
-  // beneath the curves, which stay whole inside the rings
+  // below the curves, so that these are visible inside the rings
   plot.series.insert(plot.series.begin() + 1, marks);
   plot.notes.insert(plot.notes.end(), notes.begin(), notes.end());
 }
@@ -159,7 +159,7 @@ std::string failures_of(const std::vector<AccuracyRow>& rows) {
   std::string text;
   for (const AccuracyRow& row : rows) {
     if (row.outcome == RunOutcome::right || row.outcome == RunOutcome::too_slow) continue;
-    // a row of the model net where there is no net is no failure
+    // a refused row of the net model on a shell without a net is not a failure
     if (row.edges_per_segment == 0 && row.outcome == RunOutcome::refused) continue;
     text += fmt::format("{}{} at {} ({})", text.empty() ? "" : "; ", row.method,
                         row.edges_per_segment, word_of(row.outcome));

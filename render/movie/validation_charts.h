@@ -1,4 +1,5 @@
-// Charts of methods: error over processor time and over unknowns, time over the number of rods.
+// Charts that compare methods: error over processor time and over unknowns, time over the number of
+// rods, and maps of outcomes.
 #pragma once
 
 #include <string>
@@ -10,44 +11,45 @@
 
 namespace gridshell::render {
 
-/// Rows whose method begins with "auto " are marks with their tolerances, not a curve.
+/// Rows whose method begins with this prefix are drawn as marks with their tolerances, not as a
+/// curve.
 inline constexpr const char* auto_prefix = "auto ";
 
-/// Largest joint error over the length scale against processor time, log-log, one curve a method
-/// with bars from its fastest to its slowest run, the Pareto front beneath, what `auto` picks
-/// marked. A method that was stopped is hollow at the time limit, at the error of the `bend`
-/// row of its mesh; what failed is in failures_of(). Rows `of_sizes` are those of one method at
-/// several sizes, without a front.
+/// The largest error of a joint over the length scale, over processor time, log-log: one curve per
+/// method with bars from its fastest to its slowest run, over the Pareto front, and marks of
+/// `auto`. A method that was stopped is hollow at the time limit, at the error of `bend` on its
+/// mesh; failed ones are in failures_of(). `of_sizes`: rows are those of one method at several
+/// sizes, without a front.
 Plot accuracy_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title,
                    bool of_sizes = false);
 
-/// The errors over the number of unknowns.
+/// These errors over the number of unknowns.
 Plot unknowns_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title);
 
-/// Time over rods per direction, log-log; the legend bears the exponents.
+/// Processor time over rods per direction, log-log, with the exponents in the legend.
 Plot scaling_plot(const std::vector<record::ScalingRow>& rows, const std::string& title);
 
-/// "implicit Euler 1 (blow_up), ...": methods with edges per segment that gave nothing to draw.
+/// Methods that failed, with their edges per segment: "implicit Euler at 1 (blow_up); ...".
 std::string failures_of(const std::vector<record::AccuracyRow>& rows);
 
-// Maps of where methods work: cells coloured by how a run ended.
+// Maps of outcomes: cells coloured by the outcome of a run.
 
-/// Colour of an outcome; the silent ones are the warm, dark ones, and their cells are crossed.
+/// Colour of an outcome. Silently wrong ones are dark and warm, and their cells have crosses.
 Colour outcome_colour(record::RunOutcome outcome);
 
-/// "right", "planar saddle", ... as the legend says it.
+/// The outcome in the legend: "right", "silent: planar saddle", ...
 std::string outcome_label(record::RunOutcome outcome);
 
-/// Height (points) that draw_outcome_maps takes at this width.
+/// Height (points) of draw_outcome_maps() at this width.
 double outcome_maps_height(const std::vector<record::StabilityRow>& rows, double width);
 
-/// One row of panels a map, one panel a method: x along the columns, y along the rows, a legend
-/// below; a dashed line where a "step over" its limit passes 1. Panels are as wide as their
-/// columns; what does not fit continues in the next row.
+/// Draws one row of panels per map, one panel per method: x along the columns, y along the rows, a
+/// legend below, and a dashed line where x, a "step over" a limit, exceeds 1. Panels are as wide as
+/// their columns; those that do not fit continue in the next row.
 void draw_outcome_maps(Canvas& canvas, const Box& box,
                        const std::vector<record::StabilityRow>& rows, const std::string& title);
 
-/// `<stem>.png` and `<stem>.svg`.
+/// Writes the maps as `<stem>.png`, `.svg` and `.pdf`. Errors: Fault::io.
 Result<void> write_outcome_maps(const std::filesystem::path& stem,
                                 const std::vector<record::StabilityRow>& rows,
                                 const std::string& title, double width_mm = 178);

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -37,14 +38,18 @@ struct Arguments : std::vector<std::string> {
   }
 };
 
-/// A process that runs `gridshell ARGUMENTS`, with `folder` as its working directory.
+/// A process that runs `gridshell ARGUMENTS`, with `folder` as its working directory; killed by the
+/// destructor if nobody waited for its end.
 class Running {
  public:
   Running(const Arguments& arguments, const std::filesystem::path& folder,
           const char* program = GRIDSHELL_PROGRAM)
       : folder_(folder) {
     pid_ = fork();
-    if (pid_ != 0) return;
+    if (pid_ != 0) {
+      REQUIRE(pid_ > 0);
+      return;
+    }
     std::vector<char*> words{const_cast<char*>(program)};
     for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
@@ -53,6 +58,13 @@ class Running {
     if (ready) execv(words[0], words.data());
     _exit(127);
   }
+  ~Running() {
+    if (ended_) return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
 
   void signal(int number) const { kill(pid_, number); }
 
@@ -69,18 +81,18 @@ class Running {
   }
 
   /// Stops the process (SIGSTOP); returns whether it still exists.
-  bool hold() const {
+  bool pause() const {
     signal(SIGSTOP);
     siginfo_t about{};
     waitid(P_PID, id_t(pid_), &about, WEXITED | WSTOPPED | WNOWAIT);
     return about.si_code == CLD_STOPPED;
   }
 
-  /// Waits until the program handles SIGINT, at most about a second; before that a signal ends it
-  /// without a message.
+  /// Waits until the program handles SIGINT or has ended; before that a signal ends it without a
+  /// message.
   void until_it_listens() const {
     const auto about = std::filesystem::path("/proc") / std::to_string(pid_);
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < 50000 && !ends_within(0); ++k) {
       std::ifstream lines;
       // between fork and exec the process is a copy of this test, with the test's handlers
       std::error_code error;
@@ -91,6 +103,7 @@ class Running {
           return;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    if (!ends_within(0)) FAIL("the program does not handle SIGINT");
   }
 
   /// Whether the process ends within so many seconds; wait() has still to be called.
@@ -100,7 +113,7 @@ class Running {
       siginfo_t about{};
       waitid(P_PID, id_t(pid_), &about, WEXITED | WNOHANG | WNOWAIT);
       if (about.si_pid == pid_) return true;
-      if (std::chrono::steady_clock::now() > end) return false;
+      if (std::chrono::steady_clock::now() >= end) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }
@@ -108,7 +121,8 @@ class Running {
   Ended wait() const {
     int status = 0;
     rusage used{};
-    wait4(pid_, &status, 0, &used);
+    REQUIRE(wait4(pid_, &status, 0, &used) == pid_);
+    ended_ = true;
     Ended ended;
     ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     ended.peak_MB = double(used.ru_maxrss) / 1024;
@@ -147,6 +161,7 @@ class Running {
 
   std::filesystem::path folder_;
   pid_t pid_ = 0;
+  mutable bool ended_ = false;
 };
 
 /// Runs `gridshell ARGUMENTS` to its end.

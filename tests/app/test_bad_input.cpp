@@ -115,5 +115,6 @@ TEST_CASE("a mesh that is none is refused with its file and line") {
   const auto ended = gridshell_program("check surface_mesh --set net.file=bad.obj", folder);
   CHECK(ended.code == 2);
   CHECK(ended.err ==
-        "--set: [net] file: bad.obj:3: got a vertex that is none of the 2 before it\n");
+        "--set: [net] file: bad.obj:3: got the number of no vertex, expected one of the 2 before "
+        "it\n");
 }

@@ -1,9 +1,5 @@
 // Reports of `gridshell check`, before anything runs.
-
 #include "tests/app/bench.h"
-#include "tests/small_preset.h"
-
-using Catch::Contains;
 
 TEST_CASE("check says what a push, steps and loads will do") {
   const Bench bench(small_preset({}));

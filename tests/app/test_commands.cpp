@@ -88,7 +88,7 @@ TEST_CASE("a printed config (--print-config) gives the same preset, and nothing 
   CHECK_FALSE(fs::exists(bench.at / "out"));
 }
 
-TEST_CASE("movie draws a frame each, and render draws them again without simulating") {
+TEST_CASE("movie draws every frame, and render draws them again without simulating") {
   const Bench bench(small);
   const auto said = bench.good("movie small.toml -o run");
   CHECK_THAT(said.out, Catch::StartsWith("run: "));
@@ -137,7 +137,7 @@ TEST_CASE("pictures do not depend on the number of threads", "[standard]") {
   CHECK(text_of(bench.at / "one/frames.csv") == text_of(bench.at / "three/frames.csv"));
 }
 
-TEST_CASE("figure draws a still a radius and all in one", "[standard]") {
+TEST_CASE("figure draws a still for every radius and one with all", "[standard]") {
   const Bench bench(small);
   bench.good({"figure", "small.toml", "-o", "run", "--set", "figure.radii_mm=[45.0, 42.0]"});
   std::vector<std::string> names;
@@ -227,7 +227,7 @@ TEST_CASE("a run says on the terminal what its path came past", "[shared]") {
              Contains("on its path: the path branches at progress 0.018"));
 }
 
-TEST_CASE("check says what came of each file, and what may not be meant") {
+TEST_CASE("check reports what it read from each file, and values that may be mistakes") {
   const Bench bench(small);
   REQUIRE(
       write_file(bench.at / "net.toml", "[footprint]\nkind = \"network\"\nfile = \"net.obj\"\n"));
@@ -268,7 +268,7 @@ TEST_CASE("check explains what would run and writes nothing") {
   CHECK(bench.folder.entries() == std::vector<std::string>{"small.toml"});
 }
 
-TEST_CASE("list has a line a preset, and every one of them is sound", "[standard]") {
+TEST_CASE("list has a line for every preset, and check accepts each", "[standard]") {
   const TemporaryFolder folder;
   const auto said = good("list", folder);
   CHECK_THAT(said.out, Contains("s1_actuation") && Contains("fig1_actuation"));
@@ -313,7 +313,7 @@ TEST_CASE("usage errors exit with 2, help with 0") {
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
+TEST_CASE("chart accuracy --sizes draws a curve for every number of rods") {
   const Bench bench(small);
   const auto said = bench.good("chart accuracy small.toml --sizes 5,6 --edges 16 -o sizes");
   CHECK_THAT(said.out, Contains("5 rods: ") && Contains("6 rods: "));
@@ -365,7 +365,7 @@ TEST_CASE("report puts a run into one PDF, with what it carries and how it sways
   check_refused("report out/none", bench.at, Contains("out/none"));
 }
 
-TEST_CASE("modes writes a table, shapes and a picture a mode", "[standard]") {
+TEST_CASE("modes writes a table, shapes and a picture of every mode", "[standard]") {
   const Bench bench(small + "[rod]\ndensity_kg_m3 = 6450.0\n");
   const auto said = bench.good("modes small.toml --count 3");
   CHECK_THAT(said.out, Catch::Contains("Hz"));

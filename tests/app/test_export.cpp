@@ -49,7 +49,7 @@ TEST_CASE("what cannot be exported is refused with what would do, and writes not
   refused({"run", "--to", "a.obj", "--frame", "4"}, "expected a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--frame", "-1"}, "expected a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--case", "x"}, "has no cases, so no 'x'");
-  refused({"run", "--to", "run/a.obj"}, "would lie in the run folder");
+  refused({"run", "--to", "run/a.obj"}, "is in the run folder");
   refused({"run", "--to", "run"}, "is no file");
   refused({"s1_actuation", "--to", "a.obj"}, "s1_actuation");
   refused({"nowhere", "--to", "a.svg"}, "nowhere");

@@ -10,6 +10,7 @@
 #include "render/gl/image.h"
 #include "render/movie/run_figures.h"
 #include "tests/app/bench.h"
+#include "tests/number_after.h"
 #include "tests/render/canvas/ink.h"
 #include "tests/results.h"
 
@@ -20,18 +21,13 @@ namespace {
 constexpr double page_mm = 178;
 
 /// A line of text of an SVG.
-struct Words {
+struct TextLine {
   std::string text;     ///< with a space instead of superscripts and subscripts
   std::string fill;     ///< "#1a1a1f"
   double size = 0;      ///< of its largest letters, in units of the picture
   double x = 0, y = 0;  ///< where the text starts
   bool raised = false;  ///< whether it has a superscript or a subscript
 };
-
-double number_after(const std::string& text, const std::string& before) {
-  const std::size_t at = text.find(before);
-  return at == text.npos ? 0 : std::strtod(text.c_str() + at + before.size(), nullptr);
-}
 
 std::string unescaped(std::string text) {
   for (const auto& [code, sign] :
@@ -41,31 +37,31 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-std::vector<Words> words_of_svg(const std::string& svg) {
-  std::vector<Words> all;
+std::vector<TextLine> text_lines_of_svg(const std::string& svg) {
+  std::vector<TextLine> all;
   for (std::size_t at = svg.find("<text "); at != svg.npos; at = svg.find("<text ", at + 1)) {
     const std::string one = svg.substr(at, svg.find("</text>", at) - at);
-    Words words;
+    TextLine line;
     const double scale = number_after(one, "scale(");
-    words.x = scale * number_after(one, "translate(");
-    const std::size_t place = one.find("translate(");
-    words.y = scale * number_after(one.substr(one.find(' ', place)), " ");
+    line.x = scale * number_after(one, "translate(");
+    const std::size_t position = one.find("translate(");
+    line.y = scale * number_after(one.substr(one.find(' ', position)), " ");
     const std::size_t fill = one.find("fill=\"");
-    words.fill = one.substr(fill + 6, 7);
+    line.fill = one.substr(fill + 6, 7);
     std::vector<std::pair<double, std::string>> pieces;
     for (std::size_t k = one.find("<tspan"); k != one.npos; k = one.find("<tspan", k + 1)) {
       const std::size_t begin = one.find('>', k) + 1;
       pieces.emplace_back(number_after(one.substr(k, begin - k), "font-size=\""),
                           unescaped(one.substr(begin, one.find("</tspan>", k) - begin)));
-      words.size = std::max(words.size, pieces.back().first);
+      line.size = std::max(line.size, pieces.back().first);
     }
     for (const auto& [size, text] : pieces) {
-      const bool small = size < 0.9 * words.size;
-      words.raised = words.raised || small;
-      words.text += small ? " " : text;
+      const bool small = size < 0.9 * line.size;
+      line.raised = line.raised || small;
+      line.text += small ? " " : text;
     }
-    words.size *= scale;
-    if (!words.text.empty()) all.push_back(std::move(words));
+    line.size *= scale;
+    if (!line.text.empty()) all.push_back(std::move(line));
   }
   return all;
 }
@@ -88,11 +84,11 @@ std::string page_of(int figure) { return "page_fig" + std::to_string(figure); }
 TEST_CASE("no text of a page is below 6 points at its print width", "[shared]") {
   for (int k = 1; k <= 5; ++k) {
     const std::string svg = text_of(shared_run(page_of(k)) / (page_of(k) + "_page.svg"));
-    const std::vector<Words> all = words_of_svg(svg);
+    const std::vector<TextLine> all = text_lines_of_svg(svg);
     REQUIRE(all.size() > 3);
-    for (const Words& words : all) {
-      INFO(page_of(k) << ": " << words.text);
-      CHECK(words.size * page_mm / 25.4 * 72 / width_of_svg(svg) >= 5.99);
+    for (const TextLine& line : all) {
+      INFO(page_of(k) << ": " << line.text);
+      CHECK(line.size * page_mm / 25.4 * 72 / width_of_svg(svg) >= 5.99);
     }
   }
 }
@@ -101,7 +97,7 @@ TEST_CASE("all words of all figures have a contrast of 4.5 to 1 with white", "[s
   std::set<std::string> fills;
   for (const fs::path& run : all_runs())
     for (const fs::path& file : files_under(run, ".svg"))
-      for (const Words& words : words_of_svg(text_of(file))) fills.insert(words.fill);
+      for (const TextLine& line : text_lines_of_svg(text_of(file))) fills.insert(line.fill);
   CHECK(fills.size() > 2);
   for (const std::string& fill : fills) {
     INFO(fill);
@@ -195,9 +191,9 @@ bool holds(const std::set<double>& all, double value, double half) {
   return at != all.end() && *at <= value + half + slack;
 }
 
-bool is_bare(const Words& words) {
+bool is_bare(const TextLine& line) {
   static const std::regex bare("(−|-)?[0-9]+([.][0-9]+)?");
-  return !words.raised && std::regex_match(words.text, bare);
+  return !line.raised && std::regex_match(line.text, bare);
 }
 
 bool is_round_step(double step) {
@@ -209,14 +205,14 @@ bool is_round_step(double step) {
 
 /// Whether a bare number is the label of a tick: for two other numbers in its row or column,
 /// distance and difference of the values are in proportion, or one other is a round step away.
-bool is_tick(const Words& one, const std::vector<Words>& bare) {
-  const auto value = [](const Words& words) {
-    const double size = numbers_of(words.text).front().value;
-    return std::isdigit((unsigned char)words.text.front()) ? size : -size;
+bool is_tick(const TextLine& one, const std::vector<TextLine>& bare) {
+  const auto value = [](const TextLine& line) {
+    const double size = numbers_of(line.text).front().value;
+    return std::isdigit((unsigned char)line.text.front()) ? size : -size;
   };
   for (const bool row : {true, false}) {
     std::vector<double> units;  // lengths in the picture per unit of the axis
-    for (const Words& other : bare) {
+    for (const TextLine& other : bare) {
       const bool aligned = row ? std::abs(other.y - one.y) < 0.5 : std::abs(other.x - one.x) < 30;
       const double step = value(other) - value(one);
       if (!aligned || step == 0) continue;
@@ -239,19 +235,19 @@ TEST_CASE("every number in a figure is in a file of its run, to the digits print
     const std::set<double> files = numbers_in_files(run), changes = changes_of_K(run),
                            off = deviations(run);
     for (const fs::path& file : files_under(run, ".svg")) {
-      const std::vector<Words> all = words_of_svg(text_of(file));
-      std::vector<Words> bare;
+      const std::vector<TextLine> all = text_lines_of_svg(text_of(file));
+      std::vector<TextLine> bare;
       std::ranges::copy_if(all, std::back_inserter(bare), is_bare);
-      for (const Words& words : all) {
+      for (const TextLine& line : all) {
         // a power of ten
-        if (words.raised && words.text.find("10 ") != std::string::npos) continue;
-        for (const Printed& number : numbers_of(words.text)) {
-          INFO(file.filename() << ": " << words.text << ": " << number.text);
+        if (line.raised && line.text.find("10 ") != std::string::npos) continue;
+        for (const Printed& number : numbers_of(line.text)) {
+          INFO(file.filename() << ": " << line.text << ": " << number.text);
           const auto [value, half] = std::pair(number.value, number.half);
           // a fraction in a file may be shown in per cent
           const bool found = holds(files, value, half) || holds(files, value / 100, half / 100) ||
                              holds(changes, value, half) || holds(off, value, half);
-          CHECK((found || (is_bare(words) && is_tick(words, bare))));
+          CHECK((found || (is_bare(line) && is_tick(line, bare))));
           ++looked_up;
         }
       }
@@ -294,7 +290,7 @@ double ink_around(const render::Image& picture, const render::Box& box) {
 
 }  // namespace
 
-TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared]") {
+TEST_CASE("on a page texts overlap neither one another nor what is drawn", "[shared]") {
   auto maker = value_of(app::PictureMaker::create("auto", ""));
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;

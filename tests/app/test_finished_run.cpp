@@ -11,7 +11,7 @@ TEST_CASE("the turntable of the current folder is next to it, and the run can be
   CHECK(files_under(run, ".png").empty());
   // a folder in the run would keep it from being drawn
   check_refused("movie . --turntable --frames 2 -o inside", run,
-                Contains("'inside' would be in the run folder"));
+                Contains("'inside' is in the run folder"));
   bench.good("render run --quiet");
   CHECK(files_under(run / "frames", ".png").size() == 3);
 }

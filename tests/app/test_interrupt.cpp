@@ -168,7 +168,7 @@ fs::path killed_with(std::size_t least, std::size_t most, const std::vector<std:
   const Running running(run, folder);
   fs::path partial;
   std::size_t frames = 0;
-  while (frames < least && running.hold()) {
+  while (frames < least && running.pause()) {
     const auto journals = files_under(folder, gridshell::record::journal_name);
     if (!journals.empty()) {
       partial = journals.front().parent_path();

@@ -87,7 +87,7 @@ TEST_CASE("in every preset's frames and stills no text leaves the picture or mee
   check_words_of_all({{320, 240}}, {1}, {2, 8});
 }
 
-TEST_CASE("the same in tall and wide pictures and in close-ups", "[full]") {
+TEST_CASE("no texts of tall and wide pictures and of close-ups overlap", "[full]") {
   check_words_of_all({{320, 240}, {720, 1280}, {1920, 500}}, {1, 3}, {0, 2, 4, 8});
 }
 

@@ -115,13 +115,33 @@ TEST_CASE("the time left follows how fast the work turns out") {
 }
 
 TEST_CASE("a phase that was not announced is one more of the last") {
-  app::Progress progress({{"simulating", 1}}, app::Progress::Show::lines, [] {});
-  for (int k = 0; k < 4; ++k) {
-    Watch& watch = progress.next_phase();
-    watch.report(0.9);
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    CHECK_FALSE(watch.cancelled());
+  const TemporaryFolder folder;
+  const int kept = dup(STDERR_FILENO),
+            file = open((folder / "err").c_str(), O_CREAT | O_WRONLY, 0600);
+  REQUIRE((kept >= 0 && file >= 0 && dup2(file, STDERR_FILENO) >= 0));
+  bool shown = true, cancelled = false;
+  {
+    app::Progress progress({{"simulating", 1}}, app::Progress::Show::lines, [] {});
+    for (const auto& [fraction, lines] : {std::pair{0.4, 1}, {0.3, 2}, {0.6, 3}}) {
+      Watch& watch = progress.next_phase();
+      watch.report(fraction);
+      shown &= wait_until([&] {
+        const auto text = text_of(folder / "err");
+        return std::ranges::count(text, '\n') == lines;
+      });
+      cancelled |= watch.cancelled();
+    }
   }
+  std::fflush(stderr);
+  dup2(kept, STDERR_FILENO);
+  close(kept), close(file);
+  const auto text = text_of(folder / "err");
+  CAPTURE(text);
+  CHECK(shown);
+  CHECK_FALSE(cancelled);
+  // 0.4 of one phase, 1.3 of two, 2.6 of three
+  for (const char* line : {"40 %  simulating", "\n60 %  simulating", "\n80 %  simulating"})
+    CHECK_THAT(text, Contains(line));
 }
 
 TEST_CASE("the time left on a path follows the pace of its mesh, and is not known at first") {

@@ -2,9 +2,6 @@
 
 #include "engine/core/json.h"
 #include "tests/app/bench.h"
-#include "tests/small_preset.h"
-
-using Catch::Contains;
 
 namespace {
 

@@ -22,7 +22,7 @@ void make_run(const fs::path& run) {
 }
 
 // the names next to `run` that do not belong to it
-std::vector<std::string> beside(const TemporaryFolder& folder) {
+std::vector<std::string> others(const TemporaryFolder& folder) {
   auto names = folder.entries();
   std::erase(names, "run");
   return names;
@@ -86,13 +86,13 @@ TEST_CASE("what is kept stays under its partial name, without half-written files
 
 TEST_CASE("only a run or an empty folder may be replaced, and what prevents it is named") {
   // files of the folder, added to those of a run if `whole`; a name that ends in / is a folder
-  struct Standing {
+  struct FolderCase {
     bool whole;
     std::vector<std::pair<std::string, std::string>> files;
     std::string why;  // empty: it may be replaced
   };
   const std::string run = R"({"preset": "x", "negative_pivots": 0})", mine = "mine";
-  const auto standing = GENERATE_COPY(values<Standing>({
+  const auto folder_case = GENERATE_COPY(values<FolderCase>({
       {false, {}, ""},
       {true, {}, ""},
       {false, {{"notes.txt", mine}}, "it exists and is no run (it has no summary.json)"},
@@ -111,22 +111,22 @@ TEST_CASE("only a run or an empty folder may be replaced, and what prevents it i
   const TemporaryFolder folder;
   const auto at = folder / "run";
   REQUIRE(make_folder(at));
-  if (standing.whole) make_run(at);
-  for (const auto& [name, text] : standing.files) {
+  if (folder_case.whole) make_run(at);
+  for (const auto& [name, text] : folder_case.files) {
     INFO(name);
     REQUIRE(make_folder((at / name).parent_path()));
     if (!name.ends_with('/')) REQUIRE(write_file(at / name, text));
   }
   const auto staged = StagedFolder::create(at, "run");
-  INFO(standing.why);
-  REQUIRE(bool(staged) == standing.why.empty());
+  INFO(folder_case.why);
+  REQUIRE(bool(staged) == folder_case.why.empty());
   if (staged) return;
   CHECK(staged.error().fault == Fault::bad_input);
   CHECK_THAT(staged.error().message,
              Catch::StartsWith("cannot write the folder '" + at.string() + "': ") &&
-                 Catch::Contains(standing.why) &&
+                 Catch::Contains(folder_case.why) &&
                  Catch::EndsWith("; choose another folder with -o"));
-  CHECK(beside(folder).empty());
+  CHECK(others(folder).empty());
 }
 
 TEST_CASE("whether a folder is a run is seen from its top, whatever lies below") {
@@ -196,7 +196,7 @@ TEST_CASE("what appears under the final name meanwhile is not destroyed") {
     REQUIRE(make_folder(run));
     REQUIRE(staged.commit());
     CHECK(read_file(run / "summary.json").value() == "new");
-    CHECK(beside(folder).empty());
+    CHECK(others(folder).empty());
   }
 }
 

@@ -24,11 +24,15 @@ std::size_t lines_in(const fs::path& file) {
   return std::size_t(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Contents of the files that must be equal however a sweep was computed; empty if one is missing.
+/// Contents of the files that must be equal however a sweep was computed, none of them empty.
 std::vector<std::string> products(const fs::path& folder, std::vector<std::string> names = {
                                                               "sweep.csv", "preset.toml",
                                                               "height_mm.png", "height_mm.svg"}) {
-  for (std::string& name : names) name = text_if_any(folder / name);
+  for (std::string& name : names) {
+    INFO(folder / name);
+    name = text_of(folder / name);
+    REQUIRE_FALSE(name.empty());
+  }
   return names;
 }
 
@@ -44,18 +48,23 @@ void done(const TemporaryFolder& folder, const std::vector<std::string>& argumen
   REQUIRE(ended.code == 0);
 }
 
-/// Kills the sweep into cut/ `kills` times, each after `least` to `least` + `range` milliseconds,
-/// and requires that complete lines of its log remain. Returns the final log.
+/// Kills the sweep into cut/ once when it has logged a point, then `kills` times, each after
+/// `least` to `least` + `range` milliseconds, and requires that complete lines of its log remain.
+/// Returns the final log.
 std::string killed_at_random(const fs::path& folder, int kills, unsigned seed, unsigned least,
                              unsigned range) {
   std::mt19937 random(seed);
+  const auto log = folder / "cut/sweep.jsonl";
   std::string before;
-  for (int kill = 0; kill < kills; ++kill) {
+  for (int kill = 0; kill <= kills; ++kill) {
     const Running running("sweep small.toml -o cut --jobs 2 --quiet", folder);
-    std::this_thread::sleep_for(std::chrono::milliseconds(least + random() % range));
+    if (kill == 0)
+      REQUIRE(wait_until([&] { return lines_in(log) > 1; }));
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(least + random() % range));
     running.signal(SIGKILL);
     running.wait();
-    const auto now = text_if_any(folder / "cut/sweep.jsonl");
+    const auto now = text_if_any(log);
     REQUIRE(now.starts_with(before.substr(0, before.rfind('\n') + 1)));
     before = now;
   }
@@ -70,7 +79,6 @@ TEST_CASE("a sweep is the same with one job or more, and finished it draws again
   done(folder, {"-o", "one", "--jobs", "1"});
   done(folder, {"-o", "two", "--jobs", "2"});
   const auto one = products(folder / "one");
-  for (const auto& text : one) CHECK_FALSE(text.empty());
   CHECK(one == products(folder / "two"));
   CHECK(lines_in(folder / "one/sweep.jsonl") == 9);
   CHECK_THAT(one[0], Contains("point,actuation.radius_mm,seed,outcome,") && Contains("height_mm"));
@@ -83,7 +91,7 @@ TEST_CASE("a sweep is the same with one job or more, and finished it draws again
 
 TEST_CASE("killing a sweep at any moment loses nothing that was logged") {
   const TemporaryFolder folder;
-  write_sweep(folder, 24);
+  write_sweep(folder, 60);
   done(folder, {"-o", "whole"});
   const auto log = folder / "cut/sweep.jsonl";
   const auto before = killed_at_random(folder, 20, 15, 0, 60);
@@ -132,7 +140,6 @@ footprint.rods = [4, 6]
                                "classes.pdf", "classes_by_leg.csv", "states.png"});
   };
   done(at, {"-o", "whole", "--jobs", "1"});
-  for (const auto& text : found("whole")) CHECK_FALSE(text.empty());
   // killed four times at random moments, then stopped by Ctrl-C after one more point
   const auto log = at / "cut/sweep.jsonl";
   killed_at_random(at, 4, 2, 50, 200);
@@ -167,7 +174,7 @@ TEST_CASE("GNU parallel spreads a sweep over shards") {
   CHECK(products(folder / "out") == products(folder / "whole"));
 }
 
-TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
+TEST_CASE("a second sweep into a folder is refused, at the same time or of another preset") {
   const TemporaryFolder folder;
   write_sweep(folder, 200);
   const Running first({"sweep", "small.toml", "-o", "out", "--jobs", "1", "--quiet"}, folder);

@@ -10,7 +10,7 @@
 
 /// Checks that the error message is the program's own, not a library's, and has no control
 /// characters.
-inline void check_told(const Ended& ended) {
+inline void check_message(const Ended& ended) {
   INFO(ended.err.substr(0, 2000));
   CHECK_FALSE(ended.err.empty());
   for (const char* raw : {"filesystem error", "std::", "basic_string", "vector::", "what():",

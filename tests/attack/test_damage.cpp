@@ -24,7 +24,7 @@ const std::string small =
     small_preset({.rods = 2, .radius_mm = 25, .actuated_mm = 22, .width = 48, .height = 32});
 
 // adds the checksum as trajectory_file.cpp does, so that the reader gets past it to the damage
-std::string sealed(const std::string& hdf5) {
+std::string with_checksum(const std::string& hdf5) {
   const auto sum = gridshell::Checksum::of(hdf5, gridshell::ChecksumKind::crc32);
   auto checksum =
       fmt::format("gridshell trajectory 1\n{} bytes, CRC-32 {:016x}\n", hdf5.size(), sum);
@@ -53,15 +53,15 @@ fs::path some_file(const fs::path& run, Draw& draw) {
 void change_bytes(const fs::path& file, Draw& draw) {
   auto bytes = read_file(file).value();
   // an earlier damage may have left less than a checksum
-  const bool seal_again =
+  const bool add_checksum =
       file.filename() == "trajectory.h5" && bytes.size() >= 512 && !draw.one_in(4);
-  if (seal_again) bytes = bytes.substr(512);
+  if (add_checksum) bytes = bytes.substr(512);
   for (std::size_t k = std::size_t(1) << draw.below(6); k > 0 && !bytes.empty(); --k) {
     char& at = bytes[draw.below(bytes.size())];
     at = draw.one_in(3) ? char(at ^ (1 << draw.below(8))) : draw.one_in(2) ? '\xff' : draw.byte();
   }
   if (draw.one_in(8)) bytes.resize(draw.below(bytes.size() + 1));
-  REQUIRE(write_file(file, seal_again ? sealed(bytes) : bytes));
+  REQUIRE(write_file(file, add_checksum ? with_checksum(bytes) : bytes));
 }
 
 void replace_file(const fs::path& file, const fs::path& run, Draw& draw) {
@@ -112,9 +112,9 @@ void damage(const fs::path& run, Draw& draw) {
       {bytes, bytes, [&] { replace_file(file, run, draw); }, [&] { change_summary(run, draw); }});
 }
 
-class Bench {
+class RunsToDamage {
  public:
-  Bench() {
+  RunsToDamage() {
     REQUIRE(write_file(at / "small.toml", small));
     REQUIRE(
         write_file(at / "cases.toml", small + "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"));
@@ -134,14 +134,14 @@ void check_answer(const Ended& ended, std::initializer_list<int> codes) {
   INFO(ended.code << ": " << ended.err.substr(0, 2000));
   CHECK(std::find(codes.begin(), codes.end(), ended.code) != codes.end());
   CHECK(ended.peak_MB < 400);
-  if (ended.code == 1 || ended.code == 2) check_told(ended);
+  if (ended.code == 1 || ended.code == 2) check_message(ended);
 }
 
 }  // namespace
 
 TEST_CASE("damaged run folders are answered, and nothing else is touched", "[standard][damage]") {
-  const Bench bench;
-  const auto& at = bench.at;
+  const RunsToDamage runs;
+  const auto& at = runs.at;
   const auto before = contents(at);
   std::map<int, int> codes;
   for (int trial = 0; trial < trials(10); ++trial) {
@@ -155,21 +155,21 @@ TEST_CASE("damaged run folders are answered, and nothing else is touched", "[sta
     const bool in_place = draw.one_in(3);
     if (!in_place) arguments.insert(arguments.end(), {"-o", "o"});
     if (draw.one_in(4)) arguments.push_back("--unsealed");
-    const auto ended = bench.run(arguments);
+    const auto ended = runs.run(arguments);
     check_answer(ended, {0, 1, 2});
     ++codes[ended.code];
     if (!in_place || ended.code != 0) CHECK(contents(at / "r") == damaged);
     const auto picture = files_under(at / "r", ".png");
     if (!picture.empty() && draw.one_in(2))
-      check_answer(bench.run({"compare", draw.of(picture), "small/frames/frame_00001.png"}),
+      check_answer(runs.run({"compare", draw.of(picture), "small/frames/frame_00001.png"}),
                    {0, 2, 3});
     fs::remove_all(at / "r");
     fs::remove_all(at / "o");
-    for (const auto& name : bench.folder.entries())
+    for (const auto& name : runs.folder.entries())
       if (name.starts_with("o.partial-") || name.starts_with("r.partial-"))
         fs::remove_all(at / name);
     REQUIRE(contents(at) == before);
     REQUIRE_FALSE(fs::exists("/tmp/gridshell-victim"));
   }
-  tell(codes, "render");
+  print_codes(codes, "render");
 }

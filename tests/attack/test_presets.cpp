@@ -42,7 +42,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     CHECK((seen.code == 0 || seen.code == 2 || seen.code == 130));
     CHECK(seen.peak_MB < allowed_MB);
     if (seen.code == 2) {
-      check_told(seen);
+      check_message(seen);
       CHECK(seen.err.find("hostile") != std::string::npos);
     }
     // runs all presets that `check` accepts, and some that it refuses
@@ -54,7 +54,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     ++ran[run.code];
     CHECK((run.code == 0 || run.code == 1 || run.code == 2 || run.code == 130));
     CHECK(run.peak_MB < allowed_MB);
-    if (run.code != 0) check_told(run);
+    if (run.code != 0) check_message(run);
     // both refuse the same presets, but `run` has less memory
     if (seen.code == 2) CHECK(run.code == 2);
     if (seen.code == 0 && run.code == 2) CHECK(run.err.find("memory_GB") != std::string::npos);
@@ -62,6 +62,6 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     clear(at, {"fifo", "hostile.toml"},
           [](const auto& name) { return name == "out" || name.starts_with("out.partial-"); });
   }
-  tell(checked, "check");
-  tell(ran, "run");
+  print_codes(checked, "check");
+  print_codes(ran, "run");
 }

@@ -53,7 +53,7 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard]
     const Running running(command, at);
     running.until_it_listens();
     static const std::vector<double> longest{0.01, 0.1, 0.5, 2};
-    std::this_thread::sleep_for(std::chrono::duration<double>(draw.share() * draw.of(longest)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(draw.fraction() * draw.of(longest)));
     running.signal(number);
     const auto requested = std::chrono::steady_clock::now();
     const bool answered = running.ends_within(20);
@@ -76,5 +76,5 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard]
              name.find(".old-") != name.npos;
     });
   }
-  tell(codes, "slowest answer " + std::to_string(slowest) + " s; codes");
+  print_codes(codes, "slowest answer " + std::to_string(slowest) + " s; codes");
 }

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "tests/environment.h"
 
 /// The parts of the text between " | ".
 inline std::vector<std::string> listed(const std::string& text) {
@@ -20,18 +21,14 @@ inline std::vector<std::string> listed(const std::string& text) {
 }
 
 /// GRIDSHELL_TRIALS, or `few`.
-inline int trials(int few) {
-  const char* requested = std::getenv("GRIDSHELL_TRIALS");
-  return requested ? std::atoi(requested) : few;
-}
+inline int trials(int few) { return number_from("GRIDSHELL_TRIALS", few); }
 
 /// Random numbers that depend only on the seed (GRIDSHELL_SEED, or 1) and the number of the trial,
 /// so that a trial that fails can be repeated alone.
 class Draw {
  public:
   explicit Draw(int trial) {
-    const char* seed = std::getenv("GRIDSHELL_SEED");
-    std::seed_seq all{seed ? std::atoi(seed) : 1, trial};
+    std::seed_seq all{number_from("GRIDSHELL_SEED", 1), trial};
     random_.seed(all);
   }
 
@@ -39,7 +36,7 @@ class Draw {
   std::size_t below(std::size_t n) { return std::size_t(random_() % n); }
   bool one_in(std::size_t n) { return below(n) == 0; }
   /// From 0 to 1.
-  double share() { return double(random_()) / double(std::mt19937_64::max()); }
+  double fraction() { return double(random_()) / double(std::mt19937_64::max()); }
   char byte() { return char(below(256)); }
 
   template <class T>
@@ -56,7 +53,7 @@ class Draw {
 };
 
 /// Prints exit codes and their counts, if GRIDSHELL_TRIALS is set.
-inline void tell(const std::map<int, int>& codes, const std::string& whose) {
+inline void print_codes(const std::map<int, int>& codes, const std::string& whose) {
   if (!std::getenv("GRIDSHELL_TRIALS")) return;
   std::printf("%s:", whose.c_str());
   for (const auto& [code, count] : codes) std::printf(" %d x %d", count, code);

@@ -47,8 +47,8 @@ int main(int count, char** arguments) {
       encode.push_back(cpu_ms() - finished);
       if (!bytes) return 1;
     }
-    figures.say("{} x {}: overlay {:.1f} ms, PNG {:.1f} ms CPU (medians of {} frames)\n", width,
-                height, median(overlay), median(encode), overlay.size());
+    figures.print("{} x {}: overlay {:.1f} ms, PNG {:.1f} ms CPU (medians of {} frames)\n", width,
+                  height, median(overlay), median(encode), overlay.size());
     figures.add(fmt::format("{} x {}, overlay, ms", width, height), median(overlay));
     figures.add(fmt::format("{} x {}, PNG, ms", width, height), median(encode));
   }

@@ -46,8 +46,8 @@ void measure(Context& context, int width, int height, int frames, Figures& figur
     }
   const double plain = median(cases[0].ms);
   for (Case& c : cases) {
-    figures.say("{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height, c.name,
-                median(c.ms), median(c.ms) / plain);
+    figures.print("{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height, c.name,
+                  median(c.ms), median(c.ms) / plain);
     figures.add(fmt::format("{} x {}, {}, ms", width, height, c.name), median(c.ms));
   }
 }
@@ -67,7 +67,7 @@ void measure_read_back(Context& context, int width, int height, int frames, Figu
     gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
     ms.push_back(cpu_ms() - before);
   }
-  figures.say("{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back", median(ms));
+  figures.print("{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back", median(ms));
 }
 
 }  // namespace
@@ -82,8 +82,8 @@ int main(int count, char** arguments) {
                                        : kind == "osmesa" ? ContextKind::osmesa
                                                           : ContextKind::automatic)
                            .value();
-  figures.say("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
-              context->kind_name(), frames);
+  figures.print("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
+                context->kind_name(), frames);
   measure(*context, 1280, 720, frames, figures);
   measure_read_back(*context, 1280, 720, frames, figures);
   measure(*context, 1920, 1080, std::max(1, frames / 3), figures);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "engine/core/algorithms.h"
 #include "engine/elastic/model.h"
@@ -68,6 +69,14 @@ State begun(NestedShell& shell) {
       .value();
 }
 
+/// Follows the path up to t.
+void follow_to(NestedShell& shell, double t) {
+  const Outcome end = shell.advance(t, unwatched).end;
+  if (end != Outcome::reached)
+    throw std::runtime_error(
+        fmt::format("the path ends before t = {:g}: {}", t, words_of(end).name));
+}
+
 double largest_joint_error(const NestedShell& shell, const NestedShell& reference) {
   const int joints = shell.finest().joints;
   return max_column_norm(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
@@ -79,7 +88,7 @@ void paper_shell(int runs, Figures& figures) {
   NestedShell reference = shell_of(c, fine, 1e-9);
   const State first = begun(reference);
   reference.place(parameter(0.98), first);
-  reference.advance(1, unwatched);
+  follow_to(reference, 1);
 
   // F, on the Hessian of a state of the path
   Linearisation system(reference.model());
@@ -91,8 +100,8 @@ void paper_shell(int runs, Figures& figures) {
   cholmod->factor(hessian, 0);
   const double F = median(20 * runs, [&] { cholmod->factor(hessian, 0); });
   const double block_factor = median(20 * runs, [&] { block->factor(hessian, 0); });
-  figures.say("F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
-              reference.model().dof(), block_factor / F);
+  figures.print("F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
+                reference.model().dof(), block_factor / F);
   figures.add("block factorisation, F", block_factor / F);
 
   const auto path = [&](const char* name, const LevelPlan& plan, double tolerance, int frames,
@@ -112,7 +121,7 @@ void paper_shell(int runs, Figures& figures) {
           }
         },
         [&] { shell->place(begin, first); });
-    figures.say(
+    figures.print(
         "{:34} {:6.2f} F (goal {:g}), a frame {:.2f} F, set-up {:.2f} F, error {:.2e} R_o, "
         "estimate {:.2e} R_o{}\n",
         name, time / F, goal, time / F / frames, setup / F,
@@ -127,21 +136,21 @@ void paper_shell(int runs, Figures& figures) {
 
   NestedShell coarse = shell_of(c, plan_levels(1e-3), 1e-3);
   const double flat = median(runs, [&] { begun(coarse); });
-  figures.tell("first buckled equilibrium, 4 edges, F", flat / F, "goal 20");
+  figures.report("first buckled equilibrium, 4 edges, F", flat / F, "goal 20");
   const double all = median(runs, [&] {
     const State state = begun(coarse);
     coarse.place(parameter(0.98), state);
-    coarse.advance(1, unwatched);
+    follow_to(coarse, 1);
   });
-  figures.tell("flat -> 0.75 in all, 1e-3, F", all / F, "goal 40");
+  figures.report("flat -> 0.75 in all, 1e-3, F", all / F, "goal 40");
 }
 
 /// `gridshell run s1_actuation` at other sizes and tolerances, 240 frames, one thread, in units of
 /// f, one factorisation of that shell at 4 edges per segment.
 void sizes(Figures& figures, bool largest) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
-  figures.say("\n{:>4} {:>10} {:>9} {:>9} {:>9} {:>6}  (240 frames; f: a factorisation)\n", "n",
-              "tolerance", "f, ms", "run, s", "run, f", "edges");
+  figures.print("\n{:>4} {:>10} {:>9} {:>9} {:>9} {:>6}  (240 frames; f: a factorisation)\n", "n",
+                "tolerance", "f, ms", "run, s", "run, f", "edges");
   for (int n : largest ? std::vector{24, 48, 96} : std::vector{24, 48}) {
     NestedShell shell = shell_of(circle(n), {{4}, false}, 1e-3);
     const State state = begun(shell);
@@ -159,9 +168,9 @@ void sizes(Figures& figures, bool largest) {
       const auto run = simulate::run(preset, false, watch);
       // the machine may have slowed down meanwhile
       const double seconds = cpu_now() - begin, unit = 0.5 * (f + factorisation());
-      figures.say("{:4} {:10g} {:9.3f} {:9.2f} {:9.0f} {:6}{}\n", n, tolerance, 1e3 * unit, seconds,
-                  seconds / unit, run ? run->summary.edges_per_segment : 0,
-                  run ? "" : "  " + run.error().message);
+      figures.print("{:4} {:10g} {:9.3f} {:9.2f} {:9.0f} {:6}{}\n", n, tolerance, 1e3 * unit,
+                    seconds, seconds / unit, run ? run->summary.edges_per_segment : 0,
+                    run ? "" : "  " + run.error().message);
       figures.add(fmt::format("{} rods at {:g}, f", n, tolerance), seconds / unit);
     }
   }
@@ -169,8 +178,8 @@ void sizes(Figures& figures, bool largest) {
 
 void growth(Figures& figures) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
-  figures.say("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
-              "set-up", "assembly", "factor", "first", "path");
+  figures.print("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n",
+                "dof", "set-up", "assembly", "factor", "first", "path");
   for (int n : {6, 12, 24, 48, 96, 192}) {
     const bool follow = n < 192;  // the largest is followed to its first equilibrium alone
     const Case c = circle(n);
@@ -196,9 +205,9 @@ void growth(Figures& figures) {
       reached = shell.advance(1, unwatched).end == Outcome::reached;
     }
     const double path = cpu_now() - start;
-    figures.say("{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
-                shell.model().dof(), setup, assemble, factor, buckle, path,
-                reached ? "" : "  not reached");
+    figures.print("{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
+                  shell.model().dof(), setup, assemble, factor, buckle, path,
+                  reached ? "" : "  not reached");
     figures.add(fmt::format("{} rods, factorisation, s", n), factor);
     figures.add(fmt::format("{} rods, first equilibrium, s", n), buckle);
     if (follow) figures.add(fmt::format("{} rods, path, s", n), path);
@@ -222,10 +231,10 @@ void drag(Figures& figures) {
         },
         [&] {
           shell.place(parameter(0.98), first);
-          shell.advance(parameter(0.95), unwatched);
+          follow_to(shell, parameter(0.95));
         });
-    figures.tell(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves,
-                 reached ? "meshes 4, 8, 16" : "NOT REACHED");
+    figures.report(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves,
+                   reached ? "meshes 4, 8, 16" : "NOT REACHED");
   }
 }
 
@@ -233,9 +242,9 @@ void drag(Figures& figures) {
 /// edges.
 void rests(Figures& figures) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
-  figures.say("\n{:>4} {:>12} {:>8}  (random throws of one spacing)\n", "n", "s per 1000",
-              "at rest");
-  for (const auto& [n, throws] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
+  figures.print("\n{:>4} {:>12} {:>8}  (random displacements of one spacing)\n", "n", "s per 1000",
+                "at rest");
+  for (const auto& [n, starts] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
     const Case c = circle(n);
     MultilevelRelaxation cascade =
         MultilevelRelaxation::make(c.footprint, {circular_section(0.254, 83)}, RodModel::bend,
@@ -244,13 +253,13 @@ void rests(Figures& figures) {
     std::mt19937 random{1};
     int reached = 0;
     const double begin = cpu_now();
-    for (int k = 0; k < throws; ++k) {
+    for (int k = 0; k < starts; ++k) {
       Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
       for (double& x : nodes.reshaped()) x += c.footprint.spacing * symmetric_uniform(random);
       reached += cascade.rest(1, nodes, unwatched).has_value();
     }
-    const double seconds = 1000 * (cpu_now() - begin) / throws, fraction = double(reached) / throws;
-    figures.say("{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * fraction);
+    const double seconds = 1000 * (cpu_now() - begin) / starts, fraction = double(reached) / starts;
+    figures.print("{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * fraction);
     figures.add(fmt::format("{} rods, 1000 rests, s", n), seconds);
     figures.add(fmt::format("{} rods, at rest", n), fraction);
   }

@@ -65,7 +65,7 @@ int main(int count, char** words) {
   std::string folder = "out/trust", kind;
   program.add_option("--scenes", options.scenes, "how many, of ten kinds in turn")
       ->check(CLI::Range(1, 100000));
-  program.add_option("--scene-kind", kind, "of one kind alone; networks come in no other way")
+  program.add_option("--scene-kind", kind, "of this kind alone; networks are made only by it")
       ->check(CLI::IsMember(all_words<bench::SceneKind>()));
   program.add_option("--seed", options.seed, "other scenes")->check(CLI::Range(0, 1 << 30));
   program.add_option("--limit", options.seconds, "seconds after which a run is too slow");

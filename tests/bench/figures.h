@@ -44,12 +44,12 @@ class Figures {
   const std::vector<std::string>& words() const { return words_; }
   std::FILE* lines() const { return json_ ? stderr : stdout; }
   template <class... Values>
-  void say(fmt::format_string<Values...> line, Values&&... values) const {
+  void print(fmt::format_string<Values...> line, Values&&... values) const {
     fmt::print(lines(), line, std::forward<Values>(values)...);
   }
   /// Adds a figure and prints a line for it, with a remark.
-  void tell(const std::string& name, double value, const char* remark) {
-    say("{:40} {:8.2f} ({})\n", name, value, remark);
+  void report(const std::string& name, double value, const char* remark) {
+    print("{:40} {:8.2f} ({})\n", name, value, remark);
     add(name, value);
   }
   void add(const std::string& name, double value) { figures_[name] = value; }

@@ -36,6 +36,38 @@ TEST_CASE("a branch that meshes of 4 edges alone have is not followed", "[standa
   CHECK(height(4) < fine - 0.3);
 }
 
+TEST_CASE("a run is right only if all of its numbers were compared") {
+  using bench::TrustClass;
+  preset::Preset p = small_shell();
+  p.accuracy.tolerance = 1e-2;
+  Watch watch;
+  const bench::Trial good{.outcome = value_of(simulate::run(p, false, watch)), .refused = {}};
+  const auto judged = [](const bench::Trial& requested, const bench::Trial& fine) {
+    bench::TrustRow row;
+    return bench::judge(requested, fine, requested, row);
+  };
+  const auto changed = [&](const auto& change) {
+    bench::Trial trial = good;
+    for (record::Frame& frame : trial.outcome->trajectory.frames.edit()) change(frame);
+    return trial;
+  };
+  CHECK(judged(good, good) == TrustClass::right);
+  CHECK(judged(good, {}) == TrustClass::not_compared);
+  // no frame of both
+  const auto later = changed([](record::Frame& frame) { frame.progress += 0.01; });
+  CHECK(judged(good, later) == TrustClass::not_compared);
+  const auto locking = changed([](record::Frame& frame) { frame.event = "locking"; });
+  CHECK(judged(good, locking) == TrustClass::not_compared);
+  const auto unknown = changed([](record::Frame& frame) { frame.nodes(0, 0) = NAN; });
+  CHECK(judged(good, unknown) == TrustClass::not_compared);
+  CHECK(judged(unknown, good) == TrustClass::inner_unphysical);
+  const auto no_energy = changed([](record::Frame& frame) { frame.energies[Term::bend] = NAN; });
+  CHECK(judged(no_energy, good) == TrustClass::inner_unphysical);
+  CHECK(judged(good, no_energy) == TrustClass::not_compared);
+  const auto moved = changed([](record::Frame& frame) { frame.nodes.array() += 5; });
+  CHECK(judged(good, moved) == TrustClass::other_branch);
+}
+
 TEST_CASE("sixty random scenes and twenty networks: none is silently wrong", "[full]") {
   const bool networks = GENERATE(false, true);
   bench::TrustOptions options{
@@ -45,14 +77,16 @@ TEST_CASE("sixty random scenes and twenty networks: none is silently wrong", "[f
   const auto scenes = value_of(bench::trust_study(options, watch));
   REQUIRE(int(scenes.size()) == options.scenes);
   std::set<std::string> kinds;
-  int judged = 0;
+  int judged = 0, not_compared = 0;
   for (const auto& scene : scenes) {
     kinds.insert(scene.row.kind);
     judged += scene.row.error > 0;
     CAPTURE(scene.row.scene, scene.row.kind, word_of(scene.row.found), scene.row.error,
             scene.row.estimate, scene.preset.description);
     CHECK_FALSE(bench::silently_wrong(scene.row.found));
+    not_compared += scene.row.found == bench::TrustClass::not_compared;
   }
+  CHECK(not_compared <= 2);
   CHECK(kinds.size() == (networks ? 1 : std::size_t(bench::SceneKind::network)));
   CHECK(judged > (networks ? 15 : 30));
 }

@@ -7,7 +7,6 @@
 #include "engine/core/parallel.h"
 #include "engine/core/team.h"
 #include "engine/scene/scene.h"
-#include "engine/simulate/run.h"
 
 namespace gridshell::bench {
 namespace {
@@ -15,21 +14,6 @@ namespace {
 using simulate::ExperimentResult;
 
 constexpr int frames = 5, fine_frames = 9, other_frames = 8;
-
-/// A run, and the exit code that the program would have.
-struct Trial {
-  std::optional<ExperimentResult> outcome;
-  std::string refused;  ///< why there is no outcome
-  int exit = 0;
-  bool too_slow = false;
-
-  bool whole() const {
-    const auto limit = outcome->summary.limit;
-    return limit == record::Limit::none || limit == record::Limit::snap;
-  }
-  bool snapped() const { return outcome && outcome->summary.limit == record::Limit::snap; }
-  bool doubted() const { return outcome && !outcome->summary.doubt.empty(); }
-};
 
 Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions& options,
                 const Watch& watch) {
@@ -61,9 +45,14 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
   return trial;
 }
 
-/// Whether a frame cannot be that of a shell and does not report it: its rods stretch instead of
-/// bending, or the state is not stable and the frame has no event.
+bool finite(const record::Frame& frame) {
+  return frame.nodes.allFinite() && std::isfinite(frame.energies.total());
+}
+
+/// Whether a frame cannot be that of a shell and does not report it: numbers are not finite, its
+/// rods stretch instead of bending, or the state is not stable and the frame has no event.
 bool unphysical(const record::Frame& frame) {
+  if (!finite(frame)) return true;
   if (frame.negative_pivots > 0 && frame.event.empty()) return true;
   const double bend = frame.energies[Term::bend], stretch = frame.energies[Term::stretch];
   return stretch > 0.2 * bend + 1e-3;
@@ -84,14 +73,18 @@ class WorstError {
 
   void take(double error, double estimate) {
     const double many = error / std::max(estimate, least_);
+    unknown_ |= std::isnan(many);
     if (!(many > worst_)) return;
     worst_ = many;
     error_ = error;
     estimate_ = estimate;
   }
+  /// Whether at least one error was taken, and all errors and estimates were known.
+  bool known() const { return worst_ >= 0 && !unknown_; }
 
  private:
   double &error_, &estimate_;
+  bool unknown_ = false;
   double least_, worst_ = -1;
 };
 
@@ -110,15 +103,17 @@ double off_energies(const record::Frame& a, const record::Frame& b) {
 constexpr double least_error = 1e-5;  // of forces and energies: smaller ones are residuals
 
 /// Stores in the row the errors that are largest relative to their estimates, over all frames that
-/// both runs have.
-void compare(const ExperimentResult& requested, const ExperimentResult& fine, TrustRow& row) {
+/// both runs have; returns whether there are such frames, and the errors of all joints are known.
+bool compare(const ExperimentResult& requested, const ExperimentResult& fine, TrustRow& row) {
   WorstError joints(row.error, row.estimate, 1e-9);
   WorstError forces(row.force_error, row.force_estimate, least_error);
   WorstError energies(row.energy_error, row.energy_estimate, least_error);
   const double scale_mm = requested.trajectory.layout.length_scale_mm;
   // forces and energies are relative to the largest of the run, because those of flat rods are 0
   double force = 0, energy = 0;
+  bool known = true;
   for (const record::Frame& other : fine.trajectory.frames) {
+    known &= finite(other);
     if (other.largest_force_N > force) force = other.largest_force_N;
     energy = std::max(energy, std::abs(other.energies[Term::bend]));
   }
@@ -135,7 +130,10 @@ void compare(const ExperimentResult& requested, const ExperimentResult& fine, Tr
       energies.take(off_energies(frame, other) / energy,
                     (frame.energy_error_mJ + 0.5 * other.energy_error_mJ) / energy);
     }
+  return known && joints.known();
 }
+
+}  // namespace
 
 TrustClass judge(const Trial& requested, const Trial& fine, const Trial& other, TrustRow& row) {
   constexpr double branch =
@@ -151,17 +149,19 @@ TrustClass judge(const Trial& requested, const Trial& fine, const Trial& other, 
                          distance(*requested.outcome, requested.outcome->trajectory.frames.back(),
                                   other.outcome->trajectory.frames.back()) < 1e-9);
   if (!same_end) return TrustClass::frame_dependent;
-  if (!fine.outcome) return TrustClass::right;  // nothing to judge by
-  compare(*requested.outcome, *fine.outcome, row);
+  const bool compared = fine.outcome && compare(*requested.outcome, *fine.outcome, row);
   if (!(row.error > 2 * row.estimate + 1e-7)) {
     const bool reported = !(row.force_error > 2 * row.force_estimate + least_error) &&
                           !(row.energy_error > 2 * row.energy_estimate + least_error);
-    return reported ? TrustClass::right : TrustClass::estimate_small;
+    if (!reported) return TrustClass::estimate_small;
+    return compared ? TrustClass::right : TrustClass::not_compared;
   }
   if (row.error < branch && row.error < 20 * row.estimate) return TrustClass::estimate_small;
   if (requested.snapped()) return TrustClass::after_snap;
   return requested.doubted() ? TrustClass::doubted : TrustClass::other_branch;
 }
+
+namespace {
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
   const auto kind = options.kind.value_or(SceneKind(index % int(SceneKind::network)));

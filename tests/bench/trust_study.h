@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/record/study_tables.h"
+#include "engine/simulate/run.h"
 #include "tests/bench/random_scenes.h"
 
 namespace gridshell::bench {
@@ -27,7 +28,23 @@ enum class TrustClass {
   inner_unphysical,      ///< a frame cannot be that of a shell, and does not report it
   frame_dependent,       ///< with another number of frames the last state is another
   refused,               ///< the scene was refused with a reason
+  not_compared,          ///< nothing wrong found, but a frame of both or all have no known error
   too_slow,              ///< stopped at the time limit
+};
+
+/// A run, and the exit code that the program would have.
+struct Trial {
+  std::optional<simulate::ExperimentResult> outcome;
+  std::string refused;  ///< why there is no outcome
+  int exit = 0;
+  bool too_slow = false;
+
+  bool whole() const {
+    const auto limit = outcome->summary.limit;
+    return limit == record::Limit::none || limit == record::Limit::snap;
+  }
+  bool snapped() const { return outcome && outcome->summary.limit == record::Limit::snap; }
+  bool doubted() const { return outcome && !outcome->summary.doubt.empty(); }
 };
 
 /// Whether a user would have received a wrong result without a message.
@@ -62,6 +79,10 @@ void fields(Row& row, const Visit& visit) {
              row.energy_estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
              "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
 }
+
+/// The class of a run by default, from a finer run and one with another number of frames; stores
+/// the errors in the row.
+TrustClass judge(const Trial& requested, const Trial& fine, const Trial& other, TrustRow& row);
 
 struct TrustOptions {
   int scenes = 600;                 ///< of all kinds in turn, except networks

@@ -62,10 +62,9 @@ void preset(std::string_view bytes) {
 }
 
 void points(std::string_view bytes) {
-  const InputFile file(bytes);
-  (void)preset::read_points(file.path(), {"x", "y"});
-  (void)preset::read_points(file.path(), {"x", "y", "z"});
-  (void)preset::read_points(file.path(), {"family", "x"}, {{"u", "v"}, {}});
+  (void)preset::points_in(bytes, "x.csv", {"x", "y"});
+  (void)preset::points_in(bytes, "x.csv", {"x", "y", "z"});
+  (void)preset::points_in(bytes, "x.csv", {"family", "x"}, {{"u", "v"}, {}});
 }
 
 void cloud(std::string_view bytes) {

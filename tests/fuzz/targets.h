@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -61,9 +62,10 @@ class InputFile {
     path_ = std::filesystem::is_directory("/dev/shm") ? "/dev/shm/gridshell-fuzz-XXXXXX"
                                                       : "/tmp/gridshell-fuzz-XXXXXX";
     const int descriptor = mkstemp(path_.data());
+    if (descriptor == -1) throw std::runtime_error("cannot create " + path_);
     while (!bytes.empty()) {
       const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
-      if (put <= 0) break;
+      if (put <= 0) throw std::runtime_error("cannot write " + path_);
       bytes.remove_prefix(std::size_t(put));
     }
     ::close(descriptor);

@@ -114,9 +114,12 @@ def test_a_step_past_the_tolerance_is_made_on_finer_meshes():
 
 def test_a_push_by_a_depth_goes_inward(formed):
     kept = formed.save()
+    joint = [tuple(one) for one in formed.layout.joints].index((0, 0))
+    before = formed.nodes[joint].copy()
     formed.push(np.array([0, 0]), depth_mm=3)
     assert formed.depth_mm == pytest.approx(3, abs=1e-6) and formed.force_N > 0
-    assert formed.height_mm < 50
+    moved = formed.nodes[joint] - before
+    assert moved[2] < -2
     formed.restore(kept)
 
 
@@ -206,7 +209,8 @@ def test_mistakes_are_answered(formed, wrong, said):
     before = formed.nodes.copy()
     with pytest.raises(gs.BadInput, match=said):
         wrong(formed)
-    assert isinstance(gs.BadInput("x"), (gs.Error, ValueError))
+    assert isinstance(gs.BadInput("x"), gs.Error)
+    assert isinstance(gs.BadInput("x"), ValueError)
     assert (formed.nodes == before).all() and formed.held == []
 
 
@@ -234,9 +238,14 @@ def test_a_path_that_ends_early_raises_and_stays_certified(formed):
     formed.restore(kept)
 
 
+def large():
+    """A shell whose actuation takes more than ten seconds."""
+    return gs.Session("s1_actuation", {"accuracy.tolerance": 1e-6, "footprint.rods": 24,
+                                       "footprint.radius_mm": 252, "actuation.radius_mm": 160})
+
+
 def test_control_c_stops_a_step_and_the_state_stays():
-    session = gs.Session("s1_actuation", {"accuracy.tolerance": 1e-6, "footprint.rods": 24,
-                                          "footprint.radius_mm": 252, "actuation.radius_mm": 160})
+    session = large()
     before = session.nodes.copy()
     threading.Timer(0.15, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()
@@ -249,12 +258,14 @@ def test_control_c_stops_a_step_and_the_state_stays():
 def test_what_a_handler_raises_comes_out():
     def handler(*_):
         raise RuntimeError("enough")
+    session = large()
     before = signal.signal(signal.SIGALRM, handler)
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.1)
+        begin = time.monotonic()
         with pytest.raises(RuntimeError, match="enough"):
-            gs.Session("s1_actuation", {"accuracy.tolerance": 1e-6}).actuate()
-            time.sleep(5)
+            session.actuate()
+        assert time.monotonic() - begin < 5 and session.progress == 0
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

@@ -127,7 +127,7 @@ TEST_CASE("a shell that cannot be designed says why, and stays as it is") {
   CHECK(shell.view().layout != nullptr);
 }
 
-TEST_CASE("the engine's thread shows the steps of a design and stops within one of them") {
+TEST_CASE("the engine's thread shows the steps of a design and stops it") {
   EngineThread engine;
   engine.post({Open{small_cap()}});
   engine.wait();

@@ -14,7 +14,7 @@ TEST_CASE("a click on a number types it, and its digits never turn the view") {
   CHECK(text_of(folder / "before.png") == text_of(folder / "after.png"));
 }
 
-TEST_CASE("the keyboard alone reaches numbers and menus") {
+TEST_CASE("the keyboard alone reaches numbers, and an entry of a menu changes the picture") {
   const TemporaryFolder folder;
   const auto press = [](const std::string& key) { return "down " + key + "\nup " + key + "\n"; };
   // the first Tab goes to the slider of the path, whose number is then typed
@@ -65,6 +65,19 @@ TEST_CASE("a shell of one's own is formed from the form") {
                                          typed("@new_radius", "50") + enter +
                                          click("@new_fit 0.5 0.5") + click("@new_form 0.5 0.5"));
   CHECK(number(fitted, "boundary_radius_mm") == Approx(0.8 * 86));
+}
+
+TEST_CASE("a material that is chosen gives its values to the rods") {
+  const TemporaryFolder folder;
+  const std::string press = "down Down\nup Down\n";
+  played(folder,
+         "do find_number\nwait 0.1\ntype material\nwait 0.1\n" + click("@rod.material 0.5 0.5") +
+             "wait 0.1\n" + press + press + "down Space\nup Space\n" + "wait 0.1\ndo save_preset\n",
+         {"-o", "kept"});
+  const std::string text = text_of(folder / "kept/small_1.toml");
+  CAPTURE(text);
+  CHECK_THAT(text, Contains("material = \"gfrp\""));
+  CHECK_THAT(text, Contains("young_GPa = 25.0"));
 }
 
 TEST_CASE("a window without room for the shell saves a picture, as small as pictures are") {

@@ -278,30 +278,30 @@ TEST_CASE("the workspace's file is below the folder of states") {
 namespace {
 
 /// A path of load steps at these parameters, with these numbers of negative pivots.
-PathRecord way_of(const std::vector<std::pair<double, int>>& steps) {
-  PathRecord way;
+PathRecord path_of(const std::vector<std::pair<double, int>>& steps) {
+  PathRecord path;
   for (const auto& [t, pivots] : steps) {
     LoadStep step;
     step.point.t = t;
     step.certificate.negative_pivots = pivots;
-    way.load_steps.push_back(std::move(step));
+    path.load_steps.push_back(std::move(step));
   }
-  return way;
+  return path;
 }
 
 }  // namespace
 
 TEST_CASE(
     "a stretch that is not stable reaches as far as states are known not to be, or to its event") {
-  const PathRecord way = way_of({{0.2, 0}, {0.4, 1}, {0.6, 2}, {0.8, 0}});
-  const auto marks = marks_of(way, {}, -1, progress_at);
+  const PathRecord path = path_of({{0.2, 0}, {0.4, 1}, {0.6, 2}, {0.8, 0}});
+  const auto marks = marks_of(path, {}, -1, progress_at);
   REQUIRE(marks.size() == 1);
   CHECK(marks[0].unstable);
   CHECK(marks[0].from == Approx(0.4 * 0.4));
   CHECK(marks[0].to == Approx(0.6 * 0.6));
   Event lost;
   lost.t = 0.35;
-  const auto reported = marks_of(way, {lost}, -1, progress_at);
+  const auto reported = marks_of(path, {lost}, -1, progress_at);
   REQUIRE(reported.size() == 2);
   CHECK(reported[0].from == Approx(0.35 * 0.35));
   CHECK((!reported[1].unstable && reported[1].from == reported[1].to &&
@@ -317,6 +317,6 @@ TEST_CASE("ranges of several paths that meet are one, separate ones or of other 
   CHECK((marks[0].from == 0.1 && marks[0].to == 0.4));
   CHECK(text_of_place(marks[0], [](double at) { return 100 * at; }) == "40 to 10");
   // a path back is no other interval
-  add_marks(marks, marks_of(way_of({{0.7, 1}, {0.65, 1}}), {}, -1, [](double t) { return t; }));
+  add_marks(marks, marks_of(path_of({{0.7, 1}, {0.65, 1}}), {}, -1, [](double t) { return t; }));
   CHECK(marks.size() == 3);
 }

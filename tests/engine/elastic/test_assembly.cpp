@@ -93,7 +93,9 @@ TEST_CASE("assembly: gradient and Hessian are the energy's derivatives by every 
   check_derivatives(model, state, outside, 1e-8, 1e-6, 1e-7, true);
 }
 
-TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred, and all turns") {
+TEST_CASE(
+    "joints: rods of a hinge stay perpendicular to the common normal, and edges centred, when all "
+    "turn") {
   for (const double stiffness : {3.5, std::numeric_limits<double>::infinity()}) {
     const Model model = sample_model(stiffness);
     const State state = sample_state(model);

@@ -10,6 +10,7 @@
 #include "engine/elastic/edge_energies.h"
 #include "engine/elastic/rod_frame.h"
 #include "engine/elastic/rod_material.h"
+#include "tests/engine/elastic/vector_of.h"
 
 using namespace gridshell;
 
@@ -25,16 +26,7 @@ T unknown(double value, int k) {
   return x;
 }
 
-struct V {
-  T x, y, z;
-};
-V operator+(const V& a, const V& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-V operator*(const T& s, const V& a) { return {s * a.x, s * a.y, s * a.z}; }
-T dot(const V& a, const V& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-V cross(const V& a, const V& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-V unit(const V& a) { return T(T(1) / sqrt(dot(a, a))) * a; }
+using V = VectorOf<T>;
 
 V constant(const Eigen::Vector3d& v) { return {T(v.x()), T(v.y()), T(v.z())}; }
 

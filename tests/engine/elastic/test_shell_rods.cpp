@@ -53,14 +53,14 @@ Footprint rod_on_springs() {
 
 /// The equilibrium of rod_on_springs(): its supports are moved outwards by `apart` each, and its
 /// joint is loaded.
-struct Rested {
+struct Equilibrium {
   RodMesh mesh = mesh_rods(rod_on_springs(), 20);
   Model model;
   State state;
   Assembly at;
   double potential = 0;
 
-  Rested(RodModel rod_model, double apart, double load_N) {
+  Equilibrium(RodModel rod_model, double apart, double load_N) {
     model = build_model(mesh, rods, rod_model).value();
     if (load_N > 0) model.loads.push_back({0, {0, 0, -load_N}});
     BoundaryMotion boundary;
@@ -153,7 +153,7 @@ TEST_CASE(
     "a rod pulled by two springs: force 2 a/(2/k + L/EA), supports moved outwards by a each") {
   const double apart = 1, force = 2 * apart / (2 / k.x() + length / section.EA);
   for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
-    const Rested rod(rod_model, apart, 0);
+    const Equilibrium rod(rod_model, apart, 0);
     CHECK(rod.at.force.minCoeff() == Approx(force).epsilon(1e-9));
     CHECK(rod.at.force.maxCoeff() == Approx(force).epsilon(1e-9));
     CHECK((rod.reaction(0) - Eigen::Vector3d(-force, 0, 0)).norm() < 1e-9 * force);
@@ -172,16 +172,17 @@ TEST_CASE(
 TEST_CASE("a rod on two springs sinks by P/(2 k) and bends by P L^3/(48 EI)") {
   // a load so small that the rod does not stretch
   const double load = 1e-6;
-  const double bent = load * std::pow(length, 3) / (48 * section.EI), sunk = load / (2 * k.z());
+  const double bent = load * std::pow(length, 3) / (48 * section.EI),
+               settlement = load / (2 * k.z());
   for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
-    const Rested rod(rod_model, 0, load);
+    const Equilibrium rod(rod_model, 0, load);
     double stored = 0;
     for (const int end : {0, 1}) {
-      CHECK(rod.state.x(2, rod.mesh.joints + end) == Approx(-sunk).epsilon(1e-9));
+      CHECK(rod.state.x(2, rod.mesh.joints + end) == Approx(-settlement).epsilon(1e-9));
       CHECK(rod.reaction(end).z() == Approx(load / 2).epsilon(1e-9));
       stored += 0.5 * rod.reaction(end).cwiseAbs2().cwiseQuotient(k).sum();
     }
-    CHECK(-rod.state.x(2, 0) - sunk == Approx(bent).epsilon(2e-3));
+    CHECK(-rod.state.x(2, 0) - settlement == Approx(bent).epsilon(2e-3));
     CHECK(rod.at.energies[Term::support] / stored == Approx(1).epsilon(1e-6));
     CHECK(stored >= load * load / (4 * k.z()) * (1 - 1e-9));
   }

@@ -107,3 +107,16 @@ TEST_CASE("bolts of one mesh keep the shape of another, exactly on a surface of 
           1e-8);
   }
 }
+
+TEST_CASE("a state carried to a model with other springs at its joints takes no torques along") {
+  const Bolted shell(4);
+  const Model bolted = shell.with(tightened(shell.mesh, shell.loose, shell.state, 5));
+  REQUIRE(bolted.forces() > shell.loose.forces());
+  State tense = shell.state;
+  tense.force.setConstant(0.25);
+  const StateTransfer to_bolted(shell.mesh, shell.loose, shell.mesh, bolted);
+  const State carried = to_bolted.carry(tense);
+  REQUIRE(carried.force.size() == bolted.forces());
+  CHECK(carried.force.head(shell.loose.forces()) == tense.force);
+  CHECK(carried.force.tail(bolted.forces() - shell.loose.forces()).isZero(0));
+}

@@ -45,6 +45,17 @@ TEST_CASE("curve domain: an ellipse and a superellipse") {
         Approx(100 * std::pow(1 - std::pow(0.5, 4), 0.25)).epsilon(1e-13));
 }
 
+TEST_CASE("curve domain: a superellipse may be as large as a building, and its exponent too") {
+  for (const double size : {1e-4, 1.0, 1e4}) {
+    const ClosedCurve curve = value_of(ClosedCurve::superellipse(size, 0.8 * size, 100));
+    CHECK(curve.at(0).position.isApprox(Eigen::Vector2d(size, 0)));
+    CHECK(curve.at(M_PI_2).position.y() == Approx(0.8 * size));
+    // nearly a rectangle
+    CHECK(curve.length() == Approx(7.2 * size).epsilon(0.01));
+    CHECK(curve.at(0.3).first.allFinite());
+  }
+}
+
 TEST_CASE("curve domain: hollows cut a line more than once, edges on a line once") {
   // a U, open upwards, given clockwise and with its first point repeated
   const CurveDomain u(
@@ -253,15 +264,17 @@ TEST_CASE("half of a surface of revolution: long edges in z = 0, rings at the en
       }
       CHECK(half->intervals(family, 1.001 * half->reach()).empty());
     }
-    const Eigen::Matrix2Xd ring = half->boundary(100);
-    REQUIRE(ring.cols() == 100);
-    int corners = 0;
-    for (const auto& uv : ring.colwise()) {
-      const int edges = at_edge(uv[0], uv[1]);
-      CHECK(edges > 0);
-      corners += edges == 2;
+    for (const int points : {4, 5, 6, 7, 100}) {
+      const Eigen::Matrix2Xd ring = half->boundary(points);
+      REQUIRE(ring.cols() == points);
+      int corners = 0;
+      for (const auto& uv : ring.colwise()) {
+        const int edges = at_edge(uv[0], uv[1]);
+        CHECK(edges > 0);
+        corners += edges == 2;
+      }
+      CHECK(corners == 4);
     }
-    CHECK(corners == 4);
   }
 }
 
@@ -270,6 +283,6 @@ TEST_CASE("half of a surface of revolution: too long says where the net ends") {
   const RevolutionNet net = right_angled(spool);
   CHECK_THAT(refusal(half_of(net, 1000)),
              Catch::Contains("folds (shear angle 180 degrees) where u + v = -18") &&
-                 Catch::Contains("-500 mm is past it"));
+                 Catch::Contains("-500 mm is past its end"));
   CHECK_FALSE(half_of(net, 0));
 }

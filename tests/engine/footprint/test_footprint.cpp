@@ -68,7 +68,9 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
   CHECK(circular_footprint(100, 10, 20, Placement::half));
   CHECK(circular_footprint(120.02, 13, 20, Placement::on_axis));
   CHECK(circular_footprint(100, 9, 20, Placement::on_axis));
-  CHECK(refusal(cut_footprint(Disk(1e6), 1.0, Placement::half)) != "none");
+  CHECK(refusal(cut_footprint(Disk(1e6), 1.0, Placement::half)) ==
+        "a spacing of 1 mm in a boundary that reaches 1e+06 mm gives more than 1e+06 joints or "
+        "none");
 }
 
 TEST_CASE("footprint: grid lines that cross no other within the boundary are left out") {
@@ -118,7 +120,8 @@ TEST_CASE("mesh: 4, 8 and 16 edges nest, short legs too") {
   }
 }
 
-TEST_CASE("mesh transfer: exact at shared nodes, fourth order between") {
+TEST_CASE(
+    "mesh transfer: exact at shared nodes, fourth order between, third next to the ends of rods") {
   const Footprint net = shell();
   const auto curved = [](const RodMesh& mesh) {
     Eigen::Matrix3Xd x(3, mesh.nodes());
@@ -128,16 +131,30 @@ TEST_CASE("mesh transfer: exact at shared nodes, fourth order between") {
     }
     return x;
   };
-  double before = 0;
+  double before = 0, inside_before = 0;
   for (int edges : {4, 8, 16}) {
     const RodMesh coarse = mesh_rods(net, edges), fine = mesh_rods(net, 2 * edges);
     Eigen::Matrix3Xd carried;
     MeshTransfer(coarse, fine).nodes(curved(coarse), carried);
     CHECK((carried - curved(fine)).leftCols(fine.joints + fine.edge_points).norm() < 1e-11);
-    // the order is four within the rods; one-sided slopes at their ends are one order lower
-    const double error = (carried - curved(fine)).colwise().norm().maxCoeff();
-    if (before > 0) CHECK(before / error > 6);
-    before = error;
+    // next to ends of rods, and to edges of another length, the slopes are one order lower
+    double error = 0, inside = 0;
+    for (std::size_t r = 0; r < fine.rods.size(); ++r) {
+      const auto& at = coarse.position[r];
+      for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+        const double off = (carried - curved(fine)).col(fine.rods[r][2 * k + 1]).norm();
+        error = std::max(error, off);
+        const bool equal = k > 0 && k + 2 < at.size() &&
+                           at[k] - at[k - 1] == Approx(at[k + 1] - at[k]) &&
+                           at[k + 2] - at[k + 1] == Approx(at[k + 1] - at[k]);
+        if (equal) inside = std::max(inside, off);
+      }
+    }
+    if (before > 0) {
+      CHECK(before / error == Approx(8).epsilon(0.03));
+      CHECK(inside_before / inside == Approx(16).epsilon(0.05));
+    }
+    before = error, inside_before = inside;
   }
   CHECK(before < 1e-4);
 }

@@ -20,7 +20,7 @@ Eigen::Matrix3Xd two_points() {
 
 }  // namespace
 
-TEST_CASE("points are read of lines, with remarks, normals, colours or columns in any order") {
+TEST_CASE("points are read from lines with remarks, normals, colours or columns in any order") {
   const Eigen::Matrix3Xd points = two_points();
   for (const auto& [text, name] : {
            std::pair("1 2 3\n-4 0.5 6\n", "a.xyz"),

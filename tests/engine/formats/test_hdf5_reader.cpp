@@ -16,7 +16,8 @@ TEST_CASE("an HDF5 file of something else is refused") {
   TemporaryFolder folder;
   const fs::path path = folder / "other.h5";
   H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  CHECK(refusal(read_file(path).value(), true) == "it does not say \"gridshell trajectory 1\"");
+  CHECK(refusal(read_file(path).value(), true) ==
+        "it is not of the format \"gridshell trajectory 1\"");
 }
 
 TEST_CASE("a trajectory that lacks a dataset is refused by its name") {
@@ -55,7 +56,7 @@ TEST_CASE("objects that are not what they should be are refused before anything 
           const hid_t space = H5Screate_simple(1, &size, nullptr);
           H5Aclose(H5Acreate2(file, "format", type, space, H5P_DEFAULT, H5P_DEFAULT));
           H5Sclose(space), H5Tclose(type);
-        }) == "it does not say \"gridshell trajectory 1\"");
+        }) == "it is not of the format \"gridshell trajectory 1\"");
   // text where numbers are due
   CHECK(after([&](hid_t file) {
           const hid_t type = H5Tcopy(H5T_C_S1);

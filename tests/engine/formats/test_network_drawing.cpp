@@ -1,5 +1,6 @@
 // Networks as drawings: which lines are rods, where rods are joined, and in which unit they are.
 #include "engine/formats/network_file.h"
+#include "engine/formats/outline_file.h"
 #include "tests/engine/formats/drawn_dxf.h"
 #include "tests/results.h"
 
@@ -120,7 +121,7 @@ TEST_CASE("layers, sheets and marks are left out by rules that are reported") {
   CHECK(refused(grid() + entity("MLINE", "8 0")) ==
         "d.dxf:78: MLINE is not read, expected lines and polylines: explode it");
   CHECK_THAT(refused(grid() + line(-30, 0, 25, 0)),
-             Catch::Contains("lies on what is drawn at d.dxf:"));
+             Catch::Contains("got a rod on the rod at d.dxf:"));
 }
 
 TEST_CASE("the unit is that of the key, else that of the drawing, else mm") {
@@ -220,4 +221,17 @@ TEST_CASE("the edges of a mesh are rods, those in line one, in OBJ, PLY and OFF"
   CHECK_THAT(refusal(read_network("OFF\n2 1 0\n0 0 0\n", "q.off")),
              Catch::Contains("ends after 1 of its 2 vertices and 1 faces"));
   CHECK_THAT(refusal(read_network("2 x\n", "q.off")), Catch::Contains("no OFF"));
+}
+
+TEST_CASE("a polyline without points is no mark of a point, and no crash") {
+  for (const char* kind : {"LWPOLYLINE", "POLYLINE"}) {
+    const std::string empty = entity(kind, "8 0 66 1 70 0 90 0") + entity("SEQEND", "8 0");
+    CHECK_THAT(refused(empty + line(0, 0, 30, 0)), Catch::Contains("d.dxf:"));
+    CHECK_THAT(refusal(read_outline(drawn_dxf(empty + line(0, 0, 30, 0)), "d.dxf", {}, nullptr)),
+               Catch::Contains("got no closed outline: 1 open line"));
+  }
+  // numbers outside the range of integers
+  CHECK(read(entity("SPLINE", "8 0 71 1e300 10 0 20 0 10 9 20 0") + grid(), {},
+             section("HEADER", "9\n$INSUNITS\n70\n1e300\n"))
+            .network.rods.size() == 6);
 }

@@ -169,6 +169,6 @@ TEST_CASE("a network is needed, and what names rods of a square grid is refused"
   CHECK(sprung("[0, 0, 0, 0]").find("supports nothing") != std::string::npos);
   CHECK(message(file + "spacing_mm = 30.0\n").find("spacing_mm") != std::string::npos);
   CHECK_THAT(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n"),
-             Catch::Contains("rods[0] names point 1"));
+             Catch::Contains("rods[0]: got point 1, expected 0 to"));
   CHECK_THAT(message(file + "[rod]\ntable = [[\"u\", 0, 0.3]]\n"), Catch::Contains("square grid"));
 }

@@ -122,6 +122,37 @@ TEST_CASE("an OBJ is an outline by its lines, else by its faces") {
   CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("got vertex 9"));
 }
 
+TEST_CASE("coordinates that cannot be computed with are refused") {
+  const char* large = "got a coordinate that is too large, expected at most 1e9 mm";
+  CHECK_THAT(refused("v 0 0 0\nv 1e200 0 0\nl 1 2\n", "a.obj"), Contains(large));
+  CHECK_THAT(refused("v 0 0 0\nv 2e9 0 0\nl 1 2\n", "a.obj"), Contains(large));
+  CHECK_THAT(refused(svg("<path d=\"M0 0 A 1 1 0 0 1 1e200 1e200\"/>"), "a.svg"), Contains(large));
+  CHECK_THAT(refused(svg("<path d=\"M0 0 L 1 2\"/>", "width=\"0mm\""), "a.svg"),
+             Contains("1 open line"));
+}
+
+TEST_CASE("many lines take time in proportion to their number") {
+  // the pieces of a polygon in mixed order, each in a line of its own
+  constexpr int sides = 40000, step = 10007;
+  std::string pieces;
+  for (int k = 0; k < sides; ++k) {
+    const auto at = [](int n) { return 2 * M_PI * n / sides; };
+    const int n = int(std::int64_t(k) * step % sides);
+    pieces += fmt::format("<line x1=\"{:.9f}\" y1=\"{:.9f}\" x2=\"{:.9f}\" y2=\"{:.9f}\"/>\n",
+                          900 * std::cos(at(n)), 900 * std::sin(at(n)), 900 * std::cos(at(n + 1)),
+                          900 * std::sin(at(n + 1)));
+  }
+  CHECK(outline(svg(pieces), "a.svg", {.join_mm = 1e-4}).area ==
+        Approx(M_PI * 900 * 900).epsilon(1e-6));
+}
+
+TEST_CASE("an SVG in UTF-16 is read") {
+  const std::string text = svg("<rect width=\"30\" height=\"20\"/>");
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) wide.append({c, '\0'});
+  CHECK(outline(wide, "a.svg").area == Approx(600));
+}
+
 TEST_CASE("what is no outline is refused with its position") {
   CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: got no <svg>"));
   CHECK_THAT(refused(svg("\n<path d=\"M 0 0 L 5\"/>"), "a.svg"),

@@ -134,6 +134,12 @@ TEST_CASE("heights come in any order, and a position without one is reported") {
   wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: got 'nan'");
   wrong(heights() + "3,2.1,-9999\n", "h.csv",
         "h.csv:22: got a height of -9999, which marks a hole");
+  // the number as it is written, whatever the unit of its column
+  for (const char* unit : {" [m]", "_mm", " [in]"}) {
+    std::string units = heights() + "3,2.1,-32767\n";
+    units.replace(0, 5, fmt::format("x{0},y{0},z{0}", unit));
+    wrong(units, "h.csv", "h.csv:22: got a height of -32767, which marks a hole");
+  }
   wrong("0 0 1\n1 1 1\n2 2 1\n", "h.txt", "at least 4 x 4");
   std::string scattered;
   for (int k = 0; k < 40; ++k)
@@ -144,10 +150,11 @@ TEST_CASE("heights come in any order, and a position without one is reported") {
 TEST_CASE("what is no mesh is refused with its position") {
   wrong(obj, "a.step", "ends in .csv or .txt");
   wrong("", "a.obj", "got no triangle");
+  wrong("OFF\n9223372036854775807 9223372036854775807 0\n0 0 0\n", "a.off", "got no OFF");
   wrong("v 1 2\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 nan\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 1e300\n", "a.obj", "too large");
-  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got a vertex that is none of the 4");
+  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got the number of no vertex, expected one of the 4");
   wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: got 'x', expected the number");
   wrong(obj + "f 1 2\n", "a.obj", "a polygon of 2 corners");
   wrong("a mesh", "a.stl", "no STL");
@@ -192,6 +199,7 @@ TEST_CASE("a preset contains the surface of its file, and its text reads back as
   refused("{x_mm = [1, 2, 3, 4]}", "(no list y_mm)");
   refused("{x_mm = [1, 2, 4, 3], y_mm = [1, 2, 3, 4], z_mm = []}", "expected rising numbers");
   refused("{x_mm = [1, 2, 3, 4], y_mm = [1, 2, 3, 4], z_mm = [[1]]}", "z_mm: got 1 rows");
-  refused("{vertices_mm = [[0, 0, 0]], triangles = [[0, 1, 2]]}", "none of the 1 before it");
+  refused("{vertices_mm = [[0, 0, 0]], triangles = [[0, 1, 2]]}",
+          "expected one of the 1 before it");
   refused("{vertices_mm = [[0, 0]], triangles = [[0, 0, 0]]}", "expected points [x, y, z]");
 }

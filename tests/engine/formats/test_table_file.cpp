@@ -23,7 +23,7 @@ void wrong(const std::string& text, const std::string& reason,
 
 }  // namespace
 
-TEST_CASE("one table in every spelling: marks, separators, decimal signs, quotes") {
+TEST_CASE("a table is read with any byte order mark, separator, decimal sign and quotes") {
   for (const char* text : {
            "\xEF\xBB\xBF-1.5,0\r\n75.25,-1\r\n1,2000\r\n",
            "-1,5;0\n75,25;-1\n1;2000\n",

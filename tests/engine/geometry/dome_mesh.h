@@ -1,4 +1,4 @@
-// Meshes of ellipsoids for tests.
+// Meshes of ellipsoids and of height fields for tests.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,6 +43,22 @@ inline DomeMesh ellipsoid_mesh(const Eigen::Vector3d& axes, double edge_mm,
         mesh.triangles.push_back({here, there, begin(ring - 1) + ++i % inner});
     }
   }
+  return mesh;
+}
+
+/// n x n squares, each halved by the diagonal from its first vertex; vertex (i, j), at `at(i, j)`,
+/// is column (n + 1) j + i.
+template <class At>
+DomeMesh grid_mesh(int n, const At& at) {
+  DomeMesh mesh{Eigen::Matrix3Xd(3, (n + 1) * (n + 1)), {}};
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const int a = (n + 1) * j + i;
+      mesh.vertices.col(a) = at(i, j);
+      if (i == n || j == n) continue;
+      mesh.triangles.push_back({a, a + 1, a + n + 2});
+      mesh.triangles.push_back({a, a + n + 2, a + n + 1});
+    }
   return mesh;
 }
 

@@ -95,10 +95,10 @@ TEST_CASE("sphere net: a fold is named with its position") {
   CHECK(net.at(13.6, 13.6));
   CHECK(refusal(net.at(13.7, 13.7)) ==
         "the net on the sphere of radius 10 mm folds (shear angle 0) where u v = 186.1592 mm^2; "
-        "(u, v) = (13.7, 13.7) mm is past it");
+        "(u, v) = (13.7, 13.7) mm is past its end");
   CHECK(refusal(net.at(13.7, -13.7)) ==
         "the net on the sphere of radius 10 mm folds (shear angle 180 degrees) where u v = "
-        "-186.1592 mm^2; (u, v) = (13.7, -13.7) mm is past it");
+        "-186.1592 mm^2; (u, v) = (13.7, -13.7) mm is past its end");
   CHECK_FALSE(net.at(std::nan(""), 1));
 }
 

@@ -206,17 +206,10 @@ TEST_CASE("rods end at a crease, whose two sides keep their surfaces, and pass i
     const double fold = std::max(0.0, 20 - y) / 110;
     return 50 - fold * std::abs(x) - x * x / 500;
   };
-  DomeMesh sheet{Eigen::Matrix3Xd(3, 41 * 41), {}};
-  for (int j = 0; j <= 40; ++j)
-    for (int i = 0; i <= 40; ++i) {
-      const double x = 4 * (i - 20), y = 4 * (j - 20);
-      sheet.vertices.col(41 * j + i) = Eigen::Vector3d(x, y, height(x, y));
-      if (i == 40 || j == 40) continue;
-      const int a = 41 * j + i;
-      sheet.triangles.push_back({a, a + 1, a + 42});
-      sheet.triangles.push_back({a, a + 42, a + 41});
-    }
-  const Fitted roof(sheet);
+  const Fitted roof(grid_mesh(40, [&](int i, int j) {
+    const double x = 4 * (i - 20), y = 4 * (j - 20);
+    return Eigen::Vector3d(x, y, height(x, y));
+  }));
   CHECK(std::ranges::count(roof.mesh->lines(), LineKind::crease, &MeshLine::kind) == 1);
   CHECK(std::abs(roof.smooth->at({-3, -50, height(-3, -50)})) < 0.05);
   CHECK(std::abs(roof.smooth->at({3, -50, height(3, -50)})) < 0.05);

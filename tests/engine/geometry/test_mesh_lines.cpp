@@ -12,16 +12,10 @@ namespace {
 /// A square sheet of 16 x 16 squares of 5 mm, folded along x = 40 by `turn` (rad) as far as row
 /// `rows`, and less from there on.
 TriangleMesh folded(double turn, int rows) {
-  DomeMesh mesh{Eigen::Matrix3Xd(3, 17 * 17), {}};
-  for (int j = 0; j <= 16; ++j)
-    for (int i = 0; i <= 16; ++i) {
-      const double slope = std::tan(turn / 2) * (j <= rows ? 1 : std::max(0, rows + 8 - j) / 8.);
-      mesh.vertices.col(17 * j + i) = Eigen::Vector3d(5 * i, 5 * j, -slope * 5 * std::abs(i - 8));
-      if (i == 16 || j == 16) continue;
-      const int a = 17 * j + i;
-      mesh.triangles.push_back({a, a + 1, a + 18});
-      mesh.triangles.push_back({a, a + 18, a + 17});
-    }
+  const DomeMesh mesh = grid_mesh(16, [&](int i, int j) {
+    const double slope = std::tan(turn / 2) * (j <= rows ? 1 : std::max(0, rows + 8 - j) / 8.);
+    return Eigen::Vector3d(5 * i, 5 * j, -slope * 5 * std::abs(i - 8));
+  });
   return value_of(TriangleMesh::make(mesh.vertices, mesh.triangles));
 }
 

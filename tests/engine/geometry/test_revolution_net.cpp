@@ -137,7 +137,7 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
   CHECK_THAT(refusal(net.at(100, 100)),
              Catch::StartsWith("the net on the spool of radius 100 mm and waist 0.5 folds "
                                "(shear angle 180 degrees) where u + v = 18") &&
-                 Catch::Contains("mm along the axis; (u, v) = (100, 100) mm is past it"));
+                 Catch::Contains("mm along the axis; (u, v) = (100, 100) mm is past its end"));
   CHECK_THAT(refusal(net.at(-100, -100)), Catch::Contains("where u + v = -18"));
 
   CHECK(refusal(RevolutionNet::make(spool, 0.03)) ==
@@ -149,9 +149,20 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
   CHECK(refusal(cylinder.at(80, 80)) ==
         "the cylinder of radius 40 mm ends where u + v = 141.4214 mm, 100 mm along the axis; (u, "
         "v) = "
-        "(80, 80) mm is past it");
+        "(80, 80) mm is past its end");
   CHECK(cylinder.x_at_axial(100));
   CHECK_FALSE(cylinder.x_at_axial(100.1));
+}
+
+TEST_CASE("a profile may be listed upwards or downwards") {
+  Eigen::Matrix2Xd r_z(2, 9);
+  for (int k = 0; k < 9; ++k) r_z.col(k) << 50 + 0.1 * k * k, 10.0 * k;
+  const auto net = [](const Eigen::Matrix2Xd& points) {
+    return value_of(RevolutionNet::make(value_of(tabulated_profile(points)), 0.01));
+  };
+  const RevolutionNet up = net(r_z), down = net(r_z.rowwise().reverse());
+  CHECK(value_of(up.x_at_axial(20)) > 0);
+  CHECK(value_of(down.x_at_axial(20)) == Approx(value_of(up.x_at_axial(20))));
 }
 
 TEST_CASE("profiles: what is no surface is refused") {

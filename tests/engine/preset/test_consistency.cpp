@@ -145,7 +145,7 @@ TEST_CASE("the error of a drawing or a load in the wrong key names the right one
   CHECK_THAT(errors_of("[loads]\nsnow_N_m2 = 100.0\n"), Catch::Contains("such as snow = 1.0"));
 }
 
-TEST_CASE("pictures have keys that others put out of use") {
+TEST_CASE("a key of pictures that another key replaces is an error") {
   CHECK_THAT(errors_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
              Catch::Contains("[movie] view replaces it"));
   CHECK_THAT(errors_of("[page]\nphoto = \"a.png\"\n"), Catch::Contains("no page is made"));
@@ -165,7 +165,8 @@ TEST_CASE("one error is reported once: what a wrong kind would leave idle is not
   CHECK_THAT(errors, Catch::Contains("did you mean 'spool'") && !Catch::Contains("waist"));
 }
 
-TEST_CASE("what a case or --set lays over a kind leaves the keys below in peace") {
+TEST_CASE(
+    "a case or --set that changes a kind leaves unused keys of the file below without an error") {
   const std::string spool = "[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n";
   CHECK(errors_of(spool, {{"--set", "net.kind", "sphere"}}) == "none");
   CHECK_THAT(errors_of(spool, {{"--set", "net.cut_height", "0.3"}}),

@@ -40,6 +40,24 @@ TEST_CASE("a material gives what is not given, and says so in the preset that is
   CHECK(yields.rod.fibre_strength_MPa() == Approx(420));
 }
 
+TEST_CASE("the material none gives back the values of the file, or the defaults") {
+  const preset::Override none{"--set", "rod.material", "none"};
+  const std::string steel = "[rod]\nmaterial = \"steel\"\n";
+  CHECK(read(steel, {none}).rod == preset::Rod());
+  CHECK(read(steel + "young_GPa = 90\n", {none}).rod.young_GPa == 90);
+  // the value of the file counts again, although a case replaced it
+  const auto cases = value_of(preset::read_preset_text(
+      "[rod]\nyoung_GPa = 90\nyield_strain = 0.01\n[[case]]\nname = \"a\"\nrod.material = "
+      "\"steel\"\n[[case]]\nname = \"b\"\n",
+      "own.toml", "own"));
+  CHECK(cases.cases[0].preset.rod.young_GPa == 210);
+  CHECK(cases.cases[0].preset.rod.yield_strain == 0);
+  CHECK(cases.cases[1].preset.rod.young_GPa == 90);
+  const std::string second = "[rod_v]\ndiffers = true\nmaterial = \"steel\"\n";
+  const preset::Preset v = read(second, {{"--set", "rod_v.material", "none"}});
+  CHECK(static_cast<const preset::Rod&>(v.rod_v) == preset::Rod());
+}
+
 TEST_CASE("tubes have the stiffness of their wall") {
   const RodMaterial tube = made("diameter_mm = 10\nwall_mm = 2\nyoung_GPa = 25\nshear_GPa = 3\n");
   const double I = M_PI / 64 * (std::pow(10, 4) - std::pow(6, 4)), A = M_PI / 4 * (100 - 36);

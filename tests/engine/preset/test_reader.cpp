@@ -186,6 +186,9 @@ TEST_CASE("cases need names that can be folders, each its own") {
       {"[[case]]\nname = \"../up\"",
        "bad.toml:2:8: [[case]] name: got \"../up\" (the name of a folder), expected letters, "
        "digits, '.', '_' or '-' after a letter or digit"},
+      {"[[case]]\nname = \"manifest.txt\"",
+       "bad.toml:2:8: [[case]] name: got \"manifest.txt\" (a name of a file of a run), expected "
+       "another ending than .txt"},
       {"[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
        "bad.toml:4:8: [[case]] name: got \"a\" (used twice), expected a unique name"},
       {"[case]\nname = \"a\"",
@@ -276,6 +279,24 @@ TEST_CASE("a case's list of tables replaces the file's") {
   CHECK(text.find("[[case.block]]") == text.rfind("[[case.block]]"));
   const auto again = value_of(read_preset_text(text, "again.toml", "list"));
   CHECK(to_toml(again) == text);
+}
+
+TEST_CASE("an empty list of a case removes the file's items, also when it is written") {
+  const auto presets = good(R"(
+[[step]]
+do = "rest"
+[[case]]
+name = "none"
+step = []
+[[case]]
+name = "all"
+)");
+  REQUIRE(presets.cases.size() == 2);
+  CHECK(presets.cases[0].preset.step.empty());
+  CHECK(presets.cases[1].preset.step.size() == 1);
+  const auto again = good(to_toml(presets));
+  CHECK(again.cases[0].preset.step.empty());
+  CHECK(again.cases[1].preset.step.size() == 1);
 }
 
 TEST_CASE("points are in the preset or in a file next to it") {

@@ -105,6 +105,12 @@ TEST_CASE(
       {"[[step]]\ndo = \"open\"",
        "bad.toml:1:1: [[step]] 1 angle_deg: got 0.0 (both or none of angle_deg and angles), "
        "expected one of them"},
+      {"[[step]]\ndo = \"open\"\nangles = [[0.5, 0, 80]]",
+       "bad.toml:3:10: [[step]] 1 angles: got [[0.5, 0.0, 80.0]] ([0.5, 0] is no joint), expected "
+       "integers"},
+      {"[[step]]\ndo = \"move\"\nedge_points = [[1, 0, 0, 1], [1, 0, 0, 2]]",
+       "bad.toml:3:15: [[step]] 1 edge_points: got [[1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0]] "
+       "([1] twice), expected each edge point once"},
       {"[[step]]\ndo = \"brace\"",
        "bad.toml:1:1: [[step]] 1 EA_N: got 0.0 (a brace needs a stiffness), expected above 0"},
       {"[[step]]\ndo = \"load\"\ncase = \"snow\"",

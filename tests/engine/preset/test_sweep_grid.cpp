@@ -1,6 +1,8 @@
 #include "engine/preset/sweep_grid.h"
 
+#include "engine/core/file_io.h"
 #include "tests/presets.h"
+#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -42,10 +44,50 @@ footprint.rods = 10
   CHECK(grid.at(2).preset.actuation.radius_mm == 100);
 }
 
+TEST_CASE("a swept material gives its values, but those that are swept too") {
+  const SweepGrid grid(good(over("rod.material = [\"steel\", \"spruce\", \"none\"]")));
+  CHECK(grid.at(0).preset.rod.young_GPa == 210);
+  CHECK(grid.at(1).preset.rod.young_GPa == 11);
+  CHECK(grid.at(1).preset.rod.strength_MPa == 24);
+  CHECK(grid.at(2).preset.rod == Rod());
+  const SweepGrid two(good(over("rod_v.material = [\"steel\"]\nrod_v.yield_strain = [0.01]\n"
+                                "rod_v.young_GPa = [200, 210]") +
+                           "[rod_v]\ndiffers = true\n"));
+  CHECK(two.at(0).preset.rod_v.young_GPa == 200);
+  CHECK(two.at(0).preset.rod_v.density_kg_m3 == 7850);
+  CHECK(two.at(0).preset.rod_v.strength_MPa == 0);
+  // what would have no effect is refused
+  const std::string swept = over("rod.material = [\"steel\", \"none\"]");
+  CHECK_THAT(errors_of(swept, {{"--set", "rod.shear_GPa", "2"}}),
+             Contains("[rod] shear_GPa: got a value from the command line, but [sweep] over "
+                      "rod.material decides it, expected one of the two"));
+  CHECK_THAT(errors_of(swept + "[rod]\nmaterial = \"oak\"\n"), Contains("got \"none\" and"));
+}
+
 TEST_CASE("points of a sweep need not have the stills of its base") {
   const auto presets =
       good("[figure]\nradii_mm = [126.0, 94.5]\n" + over("actuation.ratio = [0.9, 0.8]"));
   CHECK(SweepGrid(presets).at(0).preset.actuated_radius_mm() == Approx(0.9 * 126));
+}
+
+TEST_CASE("a swept file is next to the preset, and read by its other keys") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text, const std::vector<Override>& overrides = {}) {
+    REQUIRE(write_file(folder / "own.toml", text));
+    return read_preset_file(folder / "own.toml", overrides);
+  };
+  REQUIRE(write_file(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4 1\n"));
+  const std::string text =
+      "[footprint]\nkind = \"curve\"\nboundary = \"file\"\nfile_unit = \"m\"\n" +
+      over("footprint.file = [\"a.obj\"]");
+  const SweepGrid grid(value_of(read(text)));
+  const Footprint& found = grid.at(0).preset.footprint;
+  REQUIRE(found.file.points.size() == 4);
+  CHECK(found.file.points[2] == std::vector<double>{1000, 1000, 0});
+  CHECK(found.file_unit == FileUnit::file);
+  CHECK_THAT(refusal(read(text, {{"--set", "footprint.file_unit", "mm"}})),
+             Contains("[footprint] file_unit: got a value from the command line, but [sweep] over "
+                      "footprint.file"));
 }
 
 TEST_CASE("a still at the end of the path is on it, whatever the ratio rounds to") {
@@ -128,7 +170,9 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
   CHECK_THAT(errors_of(over("rod.diameter_mm = {from = 1, to = 2, cuont = 3}")),
              Contains("unknown 'cuont'; did you mean 'count'?"));
   CHECK_THAT(errors_of(over("rod.diameter_mm = {from = -1, to = 2, count = 3, log = true}")),
-             Contains("even factors need numbers > 0"));
+             Contains("log = true: expected from and to above 0"));
+  CHECK_THAT(errors_of(over("rod.diameter_mm = {from = 1e-320, to = 1, count = 3}")),
+             Contains("(too small to compute with)"));
   CHECK_THAT(errors_of(over("footprint.rods = {from = 4, to = 9, count = 3}")),
              Contains("(gives 6.5), expected an integer"));
   CHECK_THAT(errors_of(over("movie.frames = [3]")), Contains("no number of a run depends on it"));
@@ -143,9 +187,9 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
   CHECK_THAT(errors_of("[[case]]\nname = \"a\"\nsweep.seeds = 3"),
              Contains("bad.toml:3:") && Contains("expected one outside of cases"));
   CHECK_THAT(errors_of(over("rod.young_GPa = [1]") + "[[case]]\nname = \"a\"\nrod.young_GPa = 2"),
-             Contains("is set by a case and swept by [sweep] over"));
+             Contains("got a value from a case, but [sweep] over rod.young_GPa decides it"));
   CHECK_THAT(errors_of(over("rod.young_GPa = [1]"), {{"--set", "rod.young_GPa", "2"}}),
-             Contains("is set by the command line"));
+             Contains("got a value from the command line, but [sweep] over"));
   CHECK_THAT(errors_of("[imperfection]\nsize = 0.0\n[sweep]\nseeds = 3"),
              Contains("has no effect"));
   CHECK_THAT(errors_of("[sweep]\nseeds = 100000\n" +

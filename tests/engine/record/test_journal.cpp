@@ -115,7 +115,7 @@ TEST_CASE("a frame of an older version, which kept no forces, is read without th
   CHECK_FALSE(unpacked_frame(packed.substr(0, packed.size() - 24), columns));
 }
 
-TEST_CASE("a sink becomes the files of a run, whatever the order of the frames") {
+TEST_CASE("frames in any order give the same files of a run") {
   const TemporaryFolder folder;
   Trajectory run = sample_trajectory();
   run.origin = {"A title", "s1_actuation", std::string("gridshell ") + version()};

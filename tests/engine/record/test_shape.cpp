@@ -182,3 +182,19 @@ TEST_CASE("XDMF speaks of forces where the run's end has them") {
   CHECK(count(xdmf(), ":/axial_force_N") == 0);
   CHECK(count(xdmf(), ":/nodes") == 3);
 }
+
+TEST_CASE("names and titles of users stay text in every format") {
+  const record::Trajectory run = sample_trajectory();
+  const Shape shape{run.layout, run.frames.back(), run.frames.front(), "a\nf 1 2 3"};
+  for (const std::string& text : {to_obj(shape), to_obj_tubes(shape)})
+    CHECK_THAT(text, Catch::StartsWith("# a f 1 2 3, mm, z up\no gridshell\nv "));
+  CHECK_THAT(to_pvd({0}, {"a&\"b\".vtp"}), Catch::Contains("file=\"a&amp;&quot;b&quot;.vtp\""));
+  CHECK_THAT(to_xdmf(run.layout, run.frames, "a&b.h5"), Catch::Contains(">a&amp;b.h5:/nodes<"));
+}
+
+TEST_CASE("a run without frames has neither a model nor a page") {
+  record::Trajectory run = sample_trajectory();
+  run.frames = {};
+  CHECK(refusal(to_glb(run, "none", 1)) == "got no frame, expected at least one");
+  CHECK(refusal(to_page(run, "none")) == "got no frame, expected at least one");
+}

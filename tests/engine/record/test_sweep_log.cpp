@@ -99,7 +99,7 @@ TEST_CASE("a line that was changed is not believed") {
   CHECK_FALSE(log.found().contains(7));
 }
 
-TEST_CASE("a log is of one sweep and in one hand") {
+TEST_CASE("a log belongs to one sweep and is written by one process") {
   const TemporaryFolder folder;
   const auto file = folder / "sweep.jsonl";
   {
@@ -144,6 +144,19 @@ TEST_CASE("a sweep as a table") {
         "point,rod.diameter_mm,outcome,height_mm,stable,limit,force_N,reason\n"
         "0,0.5,done,0,true,none,,\n"
         "1,30.0,refused,,,,,\"too thick, by far\"\n");
+}
+
+TEST_CASE("a cell of a table that is no value of its column is named") {
+  const std::string head = "point,footprint.longest_leg,footprint.rods,outcome,reason\n";
+  CHECK(read_sweep_csv(head + "0,0.5,12,done,\n").has_value());
+  CHECK(gridshell::refusal(read_sweep_csv(head + "0,0.5,12,done,\n1,abc,12,done,\n")) ==
+        "line 3: footprint.longest_leg: got 'abc', expected a value of a sweep");
+  CHECK(gridshell::refusal(read_sweep_csv(head + "0,0.5,1.5,done,\n")) ==
+        "line 2: footprint.rods: got '1.5', expected a value of a sweep");
+  CHECK(gridshell::refusal(read_sweep_csv(head + "0,0.5\n")) ==
+        "line 2: got 2 cells, expected 5 of a point of a sweep");
+  CHECK(gridshell::refusal(read_sweep_csv(head)) ==
+        "got no point of a sweep, expected at least one");
 }
 
 TEST_CASE("a power law of a table is found with its exponents, where all is above 0") {

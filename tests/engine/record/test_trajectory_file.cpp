@@ -1,5 +1,6 @@
 #include <hdf5.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <thread>
@@ -22,7 +23,7 @@ std::string bytes_of(const Trajectory& run) {
   return read_file(folder / "a.h5").value();
 }
 
-/// Checks that two layouts are equal bit for bit in the members that sample_trajectory() sets.
+/// Checks that two layouts are equal bit for bit, but for `extrapolated`, which is not read.
 void check_same(const Layout& a, const Layout& b) {
   const auto numbers = [](const Layout& of) {
     Eigen::VectorXd all(6);
@@ -31,14 +32,17 @@ void check_same(const Layout& a, const Layout& b) {
     return all;
   };
   const auto lists = [](const Layout& of) {
-    return std::tie(of.diameters_mm, of.strength_MPa, of.rods, of.families, of.supports, of.sprung,
-                    of.edge_points, of.joints, of.cells, of.seam_rods);
+    return std::tie(of.diameters_mm, of.laths_mm, of.strength_MPa, of.rods, of.families,
+                    of.supports, of.sprung, of.edge_points, of.joints, of.above, of.cells,
+                    of.seam_rods);
   };
   CHECK(same_bits(numbers(a), numbers(b)));
   CHECK((lists(a) == lists(b)));
   CHECK(same_bits(a.spring_N_per_mm, b.spring_N_per_mm));
   CHECK(same_bits(a.original_boundary, b.original_boundary));
   CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
+  CHECK(same_bits(a.net_nodes, b.net_nodes));
+  CHECK(same_bits(a.flat_nodes, b.flat_nodes));
   REQUIRE(a.parts.size() == b.parts.size());
   for (std::size_t k = 0; k < a.parts.size(); ++k) {
     CHECK((a.parts[k].name == b.parts[k].name && a.parts[k].rods == b.parts[k].rods));
@@ -58,7 +62,11 @@ void check_same(const Layout& a, const Layout& b) {
 TEST_CASE("a trajectory comes back bit for bit") {
   TemporaryFolder folder;
   const fs::path path = folder / "trajectory.h5";
-  const Trajectory run = sample_trajectory();
+  Trajectory run = sample_trajectory();
+  run.layout.laths_mm = {0, 0, 1.0 / 3, 0.1, 0, 0, 2, 1};
+  run.layout.above = {0, 1, 7, 3};
+  run.layout.net_nodes = Eigen::Matrix3Xd::Random(3, 12);
+  run.layout.flat_nodes = Eigen::Matrix3Xd::Random(3, 12);
   REQUIRE(write_trajectory(path, run));
   CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
   const auto back = value_of(read_trajectory(path));
@@ -149,11 +157,14 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
     return written ? std::string("none") : written.error().message;
   };
   CHECK(refused([](Trajectory& run) { run.layout.rods[3][1] = 99; }) ==
-        "rod 3 names node 99 of 12");
+        "rod 3: got node 99, expected 0 to 11");
+  for (const std::vector<int>& rod : {std::vector<int>{}, {3}})
+    CHECK(refused([&](Trajectory& run) { run.layout.rods[1] = rod; }) ==
+          fmt::format("rod 1: got {} nodes, expected at least 2", rod.size()));
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].nodes.conservativeResize(3, 11); }) ==
         "frame 2: got 11 nodes, expected 12 as in the first one");
   CHECK(refused([](Trajectory& run) { run.layout.cells[0].joints[3] = -1; }) ==
-        "cell 0 names joint -1 of 4");
+        "cell 0: got joint -1, expected 0 to 3");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[0].cell_K.resize(0); }) ==
         "frame 0: got 0 values of cell_K, expected 1");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].axial_force_N.resize(11); }) ==
@@ -171,7 +182,7 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
     H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes);
     H5Dclose(set);
   };
-  CHECK(refusal(changed(wrong_index), true) == "edge point 7 names node 1234 of 12");
+  CHECK(refusal(changed(wrong_index), true) == "edge point 7: got node 1234, expected 0 to 11");
 }
 
 TEST_CASE("a column that an older version did not write is unknown") {
@@ -231,13 +242,15 @@ TEST_CASE("a trajectory that cannot be written says why and leaves the old one")
 
 TEST_CASE("threads write their trajectories at a time") {
   TemporaryFolder folder;
+  std::atomic<int> written = 0;
   std::vector<std::thread> threads;
   for (int k = 0; k < 4; ++k)
     threads.emplace_back([&, k] {
       for (int again = 0; again < 20; ++again)
-        (void)write_trajectory(folder / std::to_string(k), sample_trajectory());
+        written += write_trajectory(folder / std::to_string(k), sample_trajectory()).has_value();
     });
   for (std::thread& thread : threads) thread.join();
+  CHECK(written == 80);
   CHECK(folder.entries() == std::vector<std::string>{"0", "1", "2", "3"});
   for (const std::string& name : folder.entries()) CHECK(read_trajectory(folder / name));
 }

@@ -22,16 +22,11 @@ preset::Preset on_mesh(const DomeMesh& mesh) {
 
 /// An L: two arms of 120 mm, 240 mm long, gently arched.
 DomeMesh bent_strip() {
-  DomeMesh mesh{Eigen::Matrix3Xd(3, 25 * 25), {}};
-  for (int j = 0; j < 25; ++j)
-    for (int i = 0; i < 25; ++i) {
-      mesh.vertices.col(25 * j + i) =
-          Eigen::Vector3d(10 * i, 10 * j, 30 - (i - 6) * (i - 6) / 8. - (j - 6) * (j - 6) / 9.);
-      if (i == 24 || j == 24 || (i >= 12 && j >= 12)) continue;
-      const int a = 25 * j + i;
-      mesh.triangles.push_back({a, a + 1, a + 26});
-      mesh.triangles.push_back({a, a + 26, a + 25});
-    }
+  DomeMesh mesh = grid_mesh(24, [](int i, int j) {
+    return Eigen::Vector3d(10 * i, 10 * j, 30 - (i - 6) * (i - 6) / 8. - (j - 6) * (j - 6) / 9.);
+  });
+  // the squares from the middle on in both directions are left out
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] % 25 >= 12 && t[0] / 25 >= 12; });
   return mesh;
 }
 

@@ -144,10 +144,23 @@ TEST_CASE("rods with sections of their own, springs and shearing joints work on 
   };
   CHECK_THAT(error_of("widht_mm", 3), Catch::Contains("rods[3]: got an unknown key 'widht_mm'") &&
                                           Catch::Contains("did you mean 'width_mm'"));
+  for (const char* key : {"material", "diameter_mm"})
+    CHECK_THAT(error_of(key, 2), Catch::Contains(fmt::format("unknown key '{}'", key)) &&
+                                     !Catch::Contains("did you mean"));
+  CHECK_THAT(error_of("young_GPa", 1e300), Catch::Contains("rods[3]: young_GPa: got 1e+300 (too "
+                                                           "large to compute with)"));
   CHECK_THAT(error_of("young_GPa", -1), Catch::Contains("rods[3]: young_GPa: got -1, expected"));
   CHECK_THAT(error_of("width_mm", 3), Catch::Contains("rods[3]") && Catch::Contains("thickness"));
   CHECK_THAT(error_of("curvature_per_mm", 0.01), Catch::Contains("shear_GPa or GJ_Nmm2 above 0"));
   CHECK(error_of("young_GPa", 70) == "none");
+  // a given torsional stiffness is no modulus, and each rod needs one
+  preset::Preset twisted = shipped("network_triaxial");
+  twisted.rod.GJ_Nmm2 = 10, twisted.rod.curvature_per_mm = 0.01;
+  CHECK(conflicts(twisted).empty());
+  twisted.footprint.file.own = {{3, "GJ_Nmm2", 0}};
+  const auto errors = conflicts(twisted);
+  REQUIRE(errors.size() == 1);
+  CHECK_THAT(errors[0].what, Catch::Contains("expected rods[3] shear_GPa or GJ_Nmm2 above 0"));
   file.diameters[2] = 31;
   CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: got a diameter of 31 mm"));
 }

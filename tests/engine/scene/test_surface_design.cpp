@@ -76,7 +76,7 @@ TEST_CASE("a surface that makes no net is refused with what is wrong") {
   // seen from the apex the boundary hides parts of itself
   refused(
       with([](auto& n) { n.within = "max(x^2 + y^2 - 100^2, 12^2 - (x - 50)^2 - (y - 50)^2)"; }),
-      "two crossings of the ray");
+      "2 crossings of the ray");
 }
 
 TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary",

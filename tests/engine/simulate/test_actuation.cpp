@@ -1,11 +1,11 @@
 // The shell of Fig. 1 along its complete path, and the state in which it ends.
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <random>
 
 #include "tests/bench/random_scenes.h"
 #include "tests/engine/simulate/run.h"
+#include "tests/environment.h"
 
 using namespace gridshell;
 
@@ -188,8 +188,7 @@ preset::Preset random_circle(std::mt19937& random) {
 TEST_CASE("random circles: the error estimate is honest and useful, the tolerance is met",
           "[full]") {
   std::mt19937 random(2018);
-  const char* more = std::getenv("GRIDSHELL_TRIALS");
-  const int trials = more ? std::atoi(more) : 4;
+  const int trials = number_from("GRIDSHELL_TRIALS", 4);
   int judged = 0;
   for (int k = 0; k < trials; ++k) {
     const preset::Preset p = random_circle(random);

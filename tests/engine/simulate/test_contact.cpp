@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
+#include "tests/number_after.h"
 
 using namespace gridshell;
 
@@ -20,12 +21,6 @@ preset::Preset with_two_mirrors() {
   preset.imperfection.size = 0;
   preset.accuracy.edges_per_segment = 4;
   return preset;
-}
-
-double number_after(const std::string& text, const std::string& words) {
-  const auto at = text.find(words);
-  REQUIRE(at != std::string::npos);
-  return std::stod(text.substr(at + words.size()));
 }
 
 }  // namespace
@@ -136,7 +131,7 @@ TEST_CASE("a shell that begins in contact goes no deeper into it, and may leave 
   CHECK(shell.move_to(0.5 * begun, unwatched).end == Outcome::reached);
 }
 
-TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is none") {
+TEST_CASE("a small shell has no contact: rods that meet in a joint are none") {
   auto preset = small_shell();
   const auto outcome = run(preset);
   for (const record::Frame& frame : outcome.trajectory.frames) {

@@ -35,7 +35,7 @@ simulate::ExperimentResult layered(double eccentricity_mm, int edges, bool hinge
 
 }  // namespace
 
-TEST_CASE("a bolt between two layers puts force times eccentricity on its rod") {
+TEST_CASE("a bolt between two layers loads its rod by a moment of force times eccentricity") {
   for (const double apart : {5.0, -2.0}) {
     // a couple in the middle of a beam turns it by M l/(12 EI); the first beam bends sideways
     const double push = 0.01, beside = 48 * EI / std::pow(length, 3);

@@ -18,7 +18,7 @@ double largest(const Energies& a) {
 
 /// The number of samples of a segment that are interpolated. Each is compared with the state that
 /// is solved for on all meshes, on the same path with a smaller tolerance.
-int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
+int interpolated_frames(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
   constexpr std::size_t segment = 0;
   Watch watch;
   const auto measure = [&](record::Frame& frame, double, bool between) {
@@ -27,12 +27,12 @@ int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
   FramesBetween between(path, measure, watch), backwards(path, measure, watch);
   const double from = path.segments[segment].from, way = path.segments[segment].end() - from;
   const Eigen::Index joints = path.simulation.shell().finest().joints;
-  int read = 0;
+  int interpolated = 0;
   for (int k = 1; k < samples; ++k) {
     const PathSample sample{k, segment, from + way * k / samples, 0};
     const auto frame = between.at(sample);
     if (!frame) continue;
-    ++read;
+    ++interpolated;
     const CertifiedSample stood = certify_sample(closely, sample, watch);
     CAPTURE(k, sample.t, frame->error_estimate_mm);
     REQUIRE(stood.report.end == Outcome::reached);
@@ -53,46 +53,46 @@ int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
     // independent of the order of the calls
     if (k % 7 == 0) CHECK(backwards.at(sample)->nodes == frame->nodes);
   }
-  return read;
+  return interpolated;
 }
 
 /// The scene of a preset, with its own tolerance or, `closely`, with one of 1e-6.
-std::shared_ptr<const Scene> scene_at_rest(preset::Preset preset, bool closely) {
+std::shared_ptr<const Scene> unloaded_scene(preset::Preset preset, bool closely) {
   if (closely) preset.accuracy.tolerance = 1e-6;
   return shared_scene(preset);
 }
 
 /// The path of the actuation of a preset.
 EquilibriumPath actuated(const preset::Preset& preset, bool closely = false) {
-  return value_of(follow_actuation(scene_at_rest(preset, closely),
+  return value_of(follow_actuation(unloaded_scene(preset, closely),
                                    initial_levels(*shared_scene(preset)), false, 1, unwatched));
 }
 
 }  // namespace
 
-TEST_CASE("between load steps frames are what all meshes say", "[standard]") {
+TEST_CASE("frames that are interpolated between load steps are within their errors", "[standard]") {
   preset::Preset p = circle(12, 126, 94.5, 5);
   for (const double tolerance : {1e-3, 1e-4}) {
     p.accuracy.tolerance = tolerance;
     EquilibriumPath path = actuated(p), closely = actuated(p, true);
     CAPTURE(tolerance);
-    CHECK(read_off(path, closely, 60) > 30);
+    CHECK(interpolated_frames(path, closely, 60) > 30);
   }
 }
 
-TEST_CASE("a push is read off between its load steps, its force too", "[standard]") {
+TEST_CASE("frames of a push, with its force, are interpolated between load steps", "[standard]") {
   const preset::Preset p = shipped("s4_pole_outward");
   const auto pushed = [&](bool closely) {
-    HeldShell shell = value_of(hold_to_push(scene_at_rest(p, closely), p.indentation,
+    HeldShell shell = value_of(hold_to_push(unloaded_scene(p, closely), p.indentation,
                                             initial_levels(*shared_scene(p)), unwatched));
     follow_segment(shell, 1, {}, unwatched);
     return shell;
   };
   HeldShell path = pushed(false), closely = pushed(true);
-  CHECK(read_off(path, closely, 40) > 25);
+  CHECK(interpolated_frames(path, closely, 40) > 25);
 }
 
-TEST_CASE("where a path leaves its branch nothing is read off", "[standard]") {
+TEST_CASE("no frame is interpolated over a bifurcation", "[standard]") {
   EquilibriumPath path = actuated(circle(12, 126, 94.5, 5));
   const PathSegment& segment = path.segments[0];
   int left = 0;

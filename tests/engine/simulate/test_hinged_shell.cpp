@@ -5,6 +5,7 @@
 #include <unsupported/Eigen/AutoDiff>
 #include <unsupported/Eigen/NonLinearOptimization>
 
+#include "tests/engine/elastic/vector_of.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -13,18 +14,7 @@ namespace {
 
 using T = Eigen::AutoDiffScalar<Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 100, 1>>;
 
-struct V {
-  T x, y, z;
-};
-V operator+(const V& a, const V& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-V operator-(const V& a, const V& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-V operator*(const T& s, const V& a) { return {s * a.x, s * a.y, s * a.z}; }
-T dot(const V& a, const V& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-V cross(const V& a, const V& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-T norm(const V& a) { return sqrt(dot(a, a)); }
-V unit(const V& a) { return T(1 / norm(a)) * a; }
+using V = VectorOf<T>;
 
 /// Laths of two families, hinged, with a spring at each joint.
 struct Laths {

@@ -70,15 +70,15 @@ double top_of_elastica(double times) {
 }
 
 /// The reported position of an event: "at progress 0.6668 ± 0.0006".
-struct Place {
+struct LossAt {
   double at = 0, error = 0;
 };
-std::vector<Place> places_of(const std::string& reason) {
-  const std::regex place("at progress ([0-9.]+) ± ([0-9.e-]+)");
-  std::vector<Place> places;
-  for (std::sregex_iterator k(reason.begin(), reason.end(), place), none; k != none; ++k)
-    places.push_back({std::stod((*k)[1]), std::stod((*k)[2])});
-  return places;
+std::vector<LossAt> losses_of(const std::string& reason) {
+  const std::regex loss("at progress ([0-9.]+) ± ([0-9.e-]+)");
+  std::vector<LossAt> losses;
+  for (std::sregex_iterator k(reason.begin(), reason.end(), loss), none; k != none; ++k)
+    losses.push_back({std::stod((*k)[1]), std::stod((*k)[2])});
+  return losses;
 }
 
 double bend(const simulate::ExperimentResult& outcome) {
@@ -91,10 +91,10 @@ TEST_CASE("a heavy column bifurcates at its critical weight and is the elastica 
   for (const double times : {1.02, 1.1}) {
     CAPTURE(times);
     const auto outcome = run_to_end(column(times));
-    const auto places = places_of(outcome.summary.limit_reason);
-    REQUIRE(places.size() == 1);
-    CHECK(std::abs(places[0].at - 1 / times) <= places[0].error);
-    CHECK(places[0].error < 0.02);
+    const auto losses = losses_of(outcome.summary.limit_reason);
+    REQUIRE(losses.size() == 1);
+    CHECK(std::abs(losses[0].at - 1 / times) <= losses[0].error);
+    CHECK(losses[0].error < 0.02);
     const auto top = [&](int edges) {
       preset::Preset p = column(times);
       p.accuracy.edges_per_segment = edges;
@@ -119,10 +119,10 @@ TEST_CASE("a column's state at a load does not depend on how much more was reque
     CAPTURE(outcome->summary.limit_reason);
     CHECK(outcome->summary.limit == record::Limit::snap);
     CHECK_THAT(outcome->summary.limit_reason, Catch::StartsWith("the path branches"));
-    const auto places = places_of(outcome->summary.limit_reason);
-    REQUIRE(places.size() == 2);
-    CHECK(std::abs(places[0].at - 1 / times) <= places[0].error);
-    CHECK(std::abs(places[1].at - 1.2160 / times) <= places[1].error);
+    const auto losses = losses_of(outcome->summary.limit_reason);
+    REQUIRE(losses.size() == 2);
+    CHECK(std::abs(losses[0].at - 1 / times) <= losses[0].error);
+    CHECK(std::abs(losses[1].at - 1.2160 / times) <= losses[1].error);
     const auto last = outcome->trajectory.frames.size() - 1;
     CHECK(tip_of(outcome->trajectory, last).z() == Approx(-L).margin(0.1));
   }
@@ -137,9 +137,9 @@ TEST_CASE("a column's end does not depend on how far from straight it is drawn",
     p.movie.frames = 41;
     const auto outcome = run(p);
     CAPTURE(outcome.summary.limit_reason);
-    const auto places = places_of(outcome.summary.limit_reason);
-    REQUIRE(places.size() == 2);
-    CHECK(std::abs(places[1].at - 1.2160 / 1.5) <= places[1].error);
+    const auto losses = losses_of(outcome.summary.limit_reason);
+    REQUIRE(losses.size() == 2);
+    CHECK(std::abs(losses[1].at - 1.2160 / 1.5) <= losses[1].error);
     CHECK(tip_of(outcome.trajectory, 40).z() == Approx(-L).margin(0.1));
     // the angle about its axis, which nothing determines, is no error
     for (const record::Frame& frame : outcome.trajectory.frames)
@@ -194,16 +194,16 @@ TEST_CASE("a pinched ring continues past its double mode on every mesh", "[stand
   preset::Preset p = network(file);
   p.rod.shear_GPa = 31;  // a closed rod may twist
   const auto usual = run(p);
-  const auto place = places_of(usual.summary.limit_reason);
-  REQUIRE(place.size() == 1);
+  const auto loss = losses_of(usual.summary.limit_reason);
+  REQUIRE(loss.size() == 1);
   for (const int edges : {8, 16}) {
     p.accuracy.edges_per_segment = edges;
     CAPTURE(edges);
     const auto outcome = run_to_end(p);
     CHECK(bend(outcome) == Approx(bend(usual)).epsilon(3e-3));
-    const auto found = places_of(outcome.summary.limit_reason);
+    const auto found = losses_of(outcome.summary.limit_reason);
     REQUIRE(found.size() == 1);
-    CHECK(std::abs(found[0].at - place[0].at) <= found[0].error + place[0].error);
+    CHECK(std::abs(found[0].at - loss[0].at) <= found[0].error + loss[0].error);
   }
 }
 
@@ -302,4 +302,21 @@ TEST_CASE("a cable net hangs as its lengths allow") {
   const double angle =
       zero_of([&](double of) { return 4 * EA * (1 / std::cos(of) - 1) * std::sin(of) - P; }, 0, 1);
   CHECK(-last_frame(outcome).nodes(2, 0) == Approx(100 * std::tan(angle)).epsilon(1e-3));
+}
+
+TEST_CASE("frames next to an unloaded start have their loads") {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}, {50, -40, 0}, {50, 40, 0}};
+  file.rods = {{0, 1, 2}, {3, 1, 4}};
+  file.supports = {{0}, {2}, {3}, {4}};
+  preset::Preset p = network(file);
+  p.loads.points = {{1, 0, 0, 0, -0.05}};
+  p.movie.frames = 60;
+  const auto frames = run_to_end(p).trajectory.frames;
+  REQUIRE(frames.size() == 60);
+  CHECK(frames[1].kind == "interpolated");
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    REQUIRE(frames[k].loads_N.cols() > 0);
+    CHECK(frames[k].loads_N.row(2).sum() == Approx(-0.05 * frames[k].progress).epsilon(1e-6));
+  }
 }

@@ -20,16 +20,17 @@ EquilibriumPath actuated(const preset::Preset& preset, const LevelPlan& plan) {
 }
 
 /// What a test prescribes of the path on one mesh.
-struct Said {
+struct Prescribed {
   bool too_coarse = false;         ///< whether its estimate misses the tolerance
   std::optional<bool> event = {};  ///< whether the companion has it
   double event_t = 0.5;
 };
 
-/// Applies the policy to prescribed paths, said(edges), which are not followed; `tried` gets the
-/// edges of the meshes in order.
-template <class Say>
-Result<SharedPath> policy(const Scene& scene, const Say& said, std::vector<int>& tried) {
+/// Applies the policy to prescribed paths, prescribed(edges), which are not followed; `tried` gets
+/// the edges of the meshes in order.
+template <class Prescribe>
+Result<SharedPath> policy(const Scene& scene, const Prescribe& prescribed,
+                          std::vector<int>& tried) {
   const auto shared = std::make_shared<const Scene>(scene);
   const Follow follow = [&](const LevelPlan& plan, const Watch&) -> Result<SharedPath> {
     const int edges = plan.edges_per_segment.back();
@@ -39,7 +40,7 @@ Result<SharedPath> policy(const Scene& scene, const Say& said, std::vector<int>&
     if (simulation->begin_flat().end != Outcome::reached)
       return fail(Fault::no_equilibrium, "the flat");
     auto path = std::make_shared<EquilibriumPath>(EquilibriumPath{std::move(*simulation)});
-    const Said one = said(edges);
+    const Prescribed one = prescribed(edges);
     PathSegment segment{{}, 0, 1, {}};
     LoadStep step{path->simulation.shell().point(), {}};
     step.point.t = 1;
@@ -68,7 +69,7 @@ const Scene& small() {
 TEST_CASE("a path that its companion confirms is followed once") {
   std::vector<int> tried;
   const auto path = value_of(policy(
-      small(), [](int) { return Said{}; }, tried));
+      small(), [](int) { return Prescribed{}; }, tried));
   CHECK(tried == std::vector<int>{8});
   CHECK(path->mesh_disagreement.empty());
   CHECK_FALSE(path->tolerance_missed);
@@ -76,16 +77,20 @@ TEST_CASE("a path that its companion confirms is followed once") {
 
 TEST_CASE("an event that the companion does not have takes twice the edges, until one has it") {
   std::vector<int> tried;
-  const auto said = [](int edges) { return Said{false, edges >= 32, std::log2(edges) / 8}; };
-  const auto path = value_of(policy(small(), said, tried));
+  const auto prescribed = [](int edges) {
+    return Prescribed{false, edges >= 32, std::log2(edges) / 8};
+  };
+  const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16, 32});
   CHECK(path->mesh_disagreement.empty());
 }
 
 TEST_CASE("two meshes that agree are enough, and the event lies between them") {
   std::vector<int> tried;
-  const auto said = [](int edges) { return Said{false, false, edges == 8 ? 0.5 : 0.488}; };
-  const auto path = value_of(policy(small(), said, tried));
+  const auto prescribed = [](int edges) {
+    return Prescribed{false, false, edges == 8 ? 0.5 : 0.488};
+  };
+  const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16});
   CHECK(path->mesh_disagreement.empty());
   const Event& event = path->segments[0].report.events[0];
@@ -95,8 +100,8 @@ TEST_CASE("two meshes that agree are enough, and the event lies between them") {
 
 TEST_CASE("meshes that never agree are doubled three times, and the doubt is said") {
   std::vector<int> tried;
-  const auto said = [](int edges) { return Said{false, false, std::log2(edges) / 8}; };
-  const auto path = value_of(policy(small(), said, tried));
+  const auto prescribed = [](int edges) { return Prescribed{false, false, std::log2(edges) / 8}; };
+  const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16, 32, 64});
   CHECK_THAT(path->mesh_disagreement, Catch::StartsWith("32 edges per segment do not have the "
                                                         "event at path parameter 0.75"));
@@ -105,7 +110,7 @@ TEST_CASE("meshes that never agree are doubled three times, and the doubt is sai
 TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is missed") {
   std::vector<int> tried;
   const auto path = value_of(policy(
-      small(), [](int) { return Said{true}; }, tried));
+      small(), [](int) { return Prescribed{true}; }, tried));
   CHECK(tried == std::vector<int>{8, 16, 32, 64, 128, 128});
   CHECK(path->tolerance_missed);
   CHECK(path->segments.back().report.end == Outcome::reached);
@@ -114,7 +119,7 @@ TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is 
   const auto next = value_of(policy(
       small(),
       [](int) {
-        return Said{true, true, 0.97};
+        return Prescribed{true, true, 0.97};
       },
       tried));
   CHECK_THAT(next->mesh_disagreement, Catch::EndsWith("1.000, next to an event, where a state "
@@ -126,7 +131,7 @@ TEST_CASE("a mesh that memory does not have ends the doubling, with its reason")
   scene.memory_GB = 1e-9 * 1000 * 20000;
   std::vector<int> tried;
   const auto path = value_of(policy(
-      scene, [](int) { return Said{true}; }, tried));
+      scene, [](int) { return Prescribed{true}; }, tried));
   CHECK(tried.back() < 128);
   CHECK(tried[tried.size() - 2] == tried.back());
   CHECK_THAT(path->mesh_disagreement, Catch::Contains("GB of [accuracy] memory_GB"));
@@ -139,7 +144,7 @@ TEST_CASE("on a mesh that is requested the companion's doubt is said and nothing
   const auto path = value_of(policy(
       scene,
       [](int) {
-        return Said{true, false};
+        return Prescribed{true, false};
       },
       tried));
   CHECK(tried == std::vector<int>{8});

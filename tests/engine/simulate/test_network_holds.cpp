@@ -6,21 +6,21 @@ using namespace gridshell;
 
 namespace {
 
-enum Hold { pinned, tangent, clamped, let_go };
+enum EndKind { pinned, tangent, clamped, free_end };
 
 /// Two beams of 200 mm that cross in their middles, where a very small force pushes them down.
 struct Cross {
   static constexpr double length = 200, push_N = 1e-5;
-  std::array<Hold, 4> ends;  ///< begin and end of the first, of the second
+  std::array<EndKind, 4> ends;  ///< begin and end of the first, of the second
 
   preset::Preset preset(int edges) const {
     preset::NetworkData file = cross(length / 2, length / 2);
     for (int end = 0; end < 4; ++end) {
-      const Hold hold = ends[std::size_t(end)];
-      if (hold == let_go)
+      const EndKind end_kind = ends[std::size_t(end)];
+      if (end_kind == free_end)
         file.free.push_back(end);
       else
-        file.holds.push_back({double(end / 2), double(end % 2), double(hold)});
+        file.holds.push_back({double(end / 2), double(end % 2), double(end_kind)});
     }
     preset::Preset p = network(file, edges);
     p.rod.diameter_mm = 2, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
@@ -28,9 +28,9 @@ struct Cross {
     return p;
   }
   /// Stiffness of a beam against a force in its middle, over EI/L^3 [beam theory].
-  static double stiffness(Hold begin, Hold end) {
+  static double stiffness(EndKind begin, EndKind end) {
     if (begin == pinned && end == pinned) return 48;
-    if (begin == let_go || end == let_go) return 24;
+    if (begin == free_end || end == free_end) return 24;
     return begin == pinned || end == pinned ? 768.0 / 7 : 192;
   }
   double exact_mm() const {
@@ -47,7 +47,7 @@ double sunk(const preset::Preset& p) {
 }
 
 /// The energies of a network of laths in equilibrium.
-Energies at_rest(const preset::NetworkData& file) {
+Energies energies_of_equilibrium(const preset::NetworkData& file) {
   preset::Preset p = network(file, 2);
   p.rod.width_mm = 2, p.rod.thickness_mm = 1, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
   p.limits.max_strain = 0.02;
@@ -60,8 +60,8 @@ TEST_CASE("beams of one network bear what their own constraints give, by beam th
   for (const auto& ends :
        {std::array{clamped, pinned, clamped, pinned}, std::array{pinned, pinned, clamped, pinned},
         std::array{clamped, clamped, pinned, clamped}, std::array{tangent, pinned, pinned, pinned},
-        std::array{tangent, clamped, let_go, clamped},
-        std::array{tangent, tangent, tangent, let_go}}) {
+        std::array{tangent, clamped, free_end, clamped},
+        std::array{tangent, tangent, tangent, free_end}}) {
     const Cross cross{ends};
     CAPTURE(ends[0], ends[1], ends[2], ends[3]);
     const double exact = cross.exact_mm(), coarse = sunk(cross.preset(8)),
@@ -83,12 +83,12 @@ TEST_CASE(
     "a network of mixed laws and constraints has one equilibrium turned, moved and listed "
     "otherwise") {
   const preset::NetworkData file = mixed_network();
-  const Energies upright = at_rest(file);
+  const Energies upright = energies_of_equilibrium(file);
   constexpr std::array terms{Term::bend, Term::joint, Term::shear, Term::twist, Term::support};
   for (const Term term : terms) CHECK(upright[term] > 1e-3);
   // springs pull equally along all axes, so that they rotate with the equilibrium
   for (const preset::NetworkData& same : same_otherwise(file, 0.8)) {
-    const Energies other = at_rest(same);
+    const Energies other = energies_of_equilibrium(same);
     for (const Term term : terms) CHECK(other[term] == Approx(upright[term]).epsilon(1e-9));
     CHECK(other.total() == Approx(upright.total()).epsilon(1e-12));
   }
@@ -124,7 +124,7 @@ TEST_CASE("constraints of ends that have no support of their own are refused by 
   CHECK_THAT(refusal(scene_of(p)), Catch::Contains("would turn freely"));
 }
 
-TEST_CASE("laths that lie flat are stable, however rounding has them spin") {
+TEST_CASE("laths whose width is horizontal are stable for every direction of the rods") {
   for (int degrees = 0; degrees < 90; degrees += 10) {
     const Eigen::Rotation2Dd by(degrees * M_PI / 180);
     preset::Preset p = Cross{{pinned, pinned, pinned, pinned}}.preset(4);

@@ -30,7 +30,8 @@ preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, d
 
 /// Runs a preset on meshes of `edges` times a power of two edges per segment, in load steps of
 /// `load_step` times the usual size.
-simulate::ExperimentResult led_by(int edges, const preset::Preset& preset, double load_step = 1) {
+simulate::ExperimentResult with_base_edges(int edges, const preset::Preset& preset,
+                                           double load_step = 1) {
   Scene scene = scene_of(preset).value();
   scene.base_edges = edges;
   scene.load_step = load_step;
@@ -106,9 +107,9 @@ TEST_CASE("a loss of stability that two coarse meshes have and the finest does n
   // 16 and 20 do not
   preset::Preset p = circle(9, 109.05474771559238, 90.57544489549078);
   p.accuracy.tolerance = 4.4e-4;
-  for (int leader : {4, 5}) {
-    const auto outcome = led_by(leader, p);
-    CAPTURE(leader, outcome.summary.limit_reason);
+  for (int base_edges : {4, 5}) {
+    const auto outcome = with_base_edges(base_edges, p);
+    CAPTURE(base_edges, outcome.summary.limit_reason);
     CHECK(outcome.summary.limit == record::Limit::none);
     CHECK(bend(outcome) == Approx(11.769).epsilon(1e-4));
   }
@@ -119,7 +120,7 @@ TEST_CASE("stability lost and regained within one load step is not stepped over"
   // side
   preset::Preset p = circle(12, 154.04688335955143, 113.9866738043739);
   p.accuracy.tolerance = 6.4e-3;
-  const auto usual = led_by(4, p), half = led_by(4, p, 0.5);
+  const auto usual = with_base_edges(4, p), half = with_base_edges(4, p, 0.5);
   CHECK(usual.summary.limit == record::Limit::snap);
   CHECK(half.summary.limit == record::Limit::snap);
   CHECK(bend(usual) == Approx(bend(half)).epsilon(1e-6));
@@ -130,7 +131,7 @@ TEST_CASE("the path from flat enters a branch by the imperfection, not by where 
   // at 2 % the dome of 4 edges already lies on one of the two branches that leave at progress 0.02
   const preset::Preset p =
       drawn_ellipse(79.2370704561472, 114.96512576937675, 0.7743109990656376, 1.47e-3);
-  const auto four = led_by(4, p), five = led_by(5, p);
+  const auto four = with_base_edges(4, p), five = with_base_edges(5, p);
   for (const auto* outcome : {&four, &five})
     CHECK_THAT(outcome->summary.limit_reason, Catch::StartsWith("the path branches"));
   // its mirror image lies 9.3 mm away

@@ -178,7 +178,8 @@ TEST_CASE("steps on what is not there are errors with their number") {
   CHECK_THAT(refused(edge), Catch::Contains("got edge point 400, expected 0 to 23"));
 }
 
-TEST_CASE("a push that no mesh follows ends the run with its reason, and draws no load") {
+TEST_CASE(
+    "a push of a braced shell under a load is followed, or ends with its step as the reason") {
   // cables are added, and the first pushed joint has no constraint on any mesh: this ended the
   // program
   preset::Preset p = circle(7, 75, 60);
@@ -193,12 +194,18 @@ TEST_CASE("a push that no mesh follows ends the run with its reason, and draws n
   brace.brace = preset::BraceKind::cable;
   brace.diagonals = preset::Diagonals::first;
   p.step = {brace, push(1, 1, 4)};
-  const auto outcome = run(p);
-  CHECK(outcome.summary.steps.size() == 2);
-  CHECK_FALSE(outcome.trajectory.frames.empty());
-  if (outcome.summary.limit == record::Limit::none) return;  // a mesh follows the push
-  CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 2 (push [1, 1]): "));
-  CHECK(outcome.trajectory.layout.loaded_joints.size() <= 1);
+  const auto followed = run(p);
+  CHECK(followed.summary.steps.size() == 2);
+  CHECK(followed.summary.limit == record::Limit::none);
+  CHECK(followed.trajectory.layout.loaded_joints.size() == 1);
+  // pulled outward, the rods reach the strain limit
+  p.step[1].depth_mm = -20;
+  p.limits.max_strain = 3e-4;
+  p.accuracy.tolerance = 1e-3;
+  const auto ended = run(p);
+  CHECK(ended.summary.limit == record::Limit::locking);
+  CHECK_THAT(ended.summary.limit_reason, Catch::StartsWith("step 2 (push [1, 1]): at 0.49"));
+  CHECK(ended.trajectory.layout.loaded_joints.size() == 1);
 }
 
 TEST_CASE("a snap under a load is where the shell snaps, with an error, however much is requested",

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "engine/simulate/frames.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -243,4 +244,40 @@ TEST_CASE("a session of 24 rods answers a cancel within 0.2 s on both rod models
     return session.rest_in_time(watch, [](const MovingState&) {}).end;
   });
   CHECK(stopped >= 5);
+}
+
+TEST_CASE("dead loads stay as they are while joints are pushed at half the actuation") {
+  preset::Preset p = six_rods(1e-3);
+  p.loads.gravity_m_s2 = 9.81 * 40;
+  Simulation session = open(shared_scene(p));
+  certified(session, session.begin_buckled(0.02, unwatched).value());
+  certified(session, session.move_to(0.5, unwatched));
+  const double load = session.steady_load().begin;
+  CHECK(load == Approx(0.5));
+  const Eigen::Vector3d down(0, 0, -0.1);
+  certified(session, session.push(7, down, Across::free, unwatched));
+  CHECK(session.steady_load().begin == load);
+  certified(session, session.push(12, down, Across::free, unwatched));
+  CHECK(session.shell().outside(session.shell().last()).load == Approx(load));
+  certified(session, session.release(7, unwatched));
+  certified(session, session.release(12, unwatched));
+  // a factor counts for all of the actuation
+  certified(session, session.load(2, unwatched));
+  CHECK(session.steady_load().begin == Approx(2 * load));
+  const double before = session.energies()[Term::load];
+  CHECK(session.move_to(0.5, unwatched).end == Outcome::reached);
+  CHECK(session.energies()[Term::load] == Approx(before).epsilon(1e-3));
+}
+
+TEST_CASE("frames of a motion have the energies under the loads of their path parameter") {
+  preset::Preset p = six_rods(1e-3);
+  p.loads.gravity_m_s2 = 9.81;
+  Simulation session = formed(p);
+  const std::vector<TimedState> moments = {{0, session.shell().state().levels.back()}};
+  const auto load_at = [&](double progress) {
+    return simulate::frames_in_motion(session, parameter_at(progress), moments)
+        .front()
+        .energies[Term::load];
+  };
+  CHECK(load_at(0.5) == Approx(0.5 * load_at(1)));
 }

@@ -218,6 +218,10 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   p.step[0].cells = {{40, 2}};
   CHECK(refusal(plan(p), Fault::bad_input) ==
         "[[step]] 1 cells: got [40, 2], expected a cell of the footprint");
+  p.step = {step(StepKind::move)};
+  p.step[0].edge_points = {{1e9, 0, 0, 1}};
+  CHECK_THAT(refusal(plan(p), Fault::bad_input),
+             Catch::Contains("[[step]] 1 edge_points: got 1e+09, expected 0 to "));
   p.step = {step(StepKind::release)};
   p.step[0].what = preset::Released::braces;
   CHECK(refusal(plan(p), Fault::bad_input) ==

@@ -9,6 +9,21 @@
 
 namespace gridshell {
 
+/// A pinned inextensible rod of length 1 and stiffness EI = 1, by its elliptic modulus m [theory of
+/// the elastica].
+struct PinnedElastica {
+  double shortening, height, thrust, energy, curvature;  ///< the last one is the largest
+
+  explicit PinnedElastica(double m) {
+    const double K = std::comp_ellint_1(std::sqrt(m)), E = std::comp_ellint_2(std::sqrt(m));
+    shortening = 2 - 2 * E / K;
+    height = std::sqrt(m) / K;
+    thrust = 4 * K * K;
+    energy = 8 * K * (E - (1 - m) * K);
+    curvature = 4 * K * std::sqrt(m);
+  }
+};
+
 /// Angle, its slope and the position, at the end of a rod shot with an angle and a slope, by
 /// Runge-Kutta steps: d/ds of them is (slope, turn(s, angle), (sin, cos) of the angle).
 template <class Turn>

@@ -119,7 +119,7 @@ TEST_CASE("contact: an overhand knot stays one, and is gone without") {
   finish(model);
   Model touching = model;
   let_touch(rods, touching);
-  const auto rest_of = [&](const Model& of) {
+  const auto equilibrium_of = [&](const Model& of) {
     Linearisation system(of);
     State state = start_state(of, x);
     REQUIRE(gradient_flow(system, state, 0.5, unwatched) == Outcome::reached);
@@ -131,7 +131,7 @@ TEST_CASE("contact: an overhand knot stays one, and is gone without") {
     CHECK(system.residual() < 1e-6);
     return state;
   };
-  const State knot = rest_of(touching), arch = rest_of(model);
+  const State knot = equilibrium_of(touching), arch = equilibrium_of(model);
   CHECK(nearest_of(touching, knot.x) > diameter);
   CHECK(nearest_of(touching, knot.x) < diameter + gap);
   const Energies stored = energies_of(touching, knot);

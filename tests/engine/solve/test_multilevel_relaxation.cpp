@@ -19,7 +19,7 @@ MultilevelRelaxation cascade_of(int rods) {
       .value();
 }
 
-Eigen::Matrix3Xd thrown(const MultilevelRelaxation& cascade, unsigned seed) {
+Eigen::Matrix3Xd random_start(const MultilevelRelaxation& cascade, unsigned seed) {
   std::mt19937 random{seed};
   Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
   for (double& coordinate : nodes.reshaped())
@@ -33,7 +33,7 @@ TEST_CASE("cascade: nineteen of twenty rough states of eight rods reach a stable
   MultilevelRelaxation cascade = cascade_of(8);
   int at_rest = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const auto rest = cascade.rest(1, thrown(cascade, seed), unwatched);
+    const auto rest = cascade.rest(1, random_start(cascade, seed), unwatched);
     if (!rest) continue;
     ++at_rest;
     CHECK(cascade.system().at(*rest, false).positive_definite());
@@ -47,7 +47,8 @@ TEST_CASE("cascade: nodes that are no numbers are an error, a cancel is answered
   Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
   check_stops([&](const Watch& watch) { return cascade.rest(1, nodes, watch); });
   nodes.setConstant(std::numeric_limits<double>::quiet_NaN());
-  CHECK(refusal(cascade.rest(1, nodes, unwatched), Fault::no_equilibrium) != "none");
+  CHECK_THAT(refusal(cascade.rest(1, nodes, unwatched), Fault::no_equilibrium),
+             Catch::StartsWith("no equilibrium after 1 iterations"));
 }
 
 TEST_CASE(
@@ -55,7 +56,7 @@ TEST_CASE(
   MultilevelRelaxation cascade = cascade_of(8);
   int kept = 0;
   for (const SymmetryGroup& group : subgroups(cascade.symmetries())) {
-    const auto rest = cascade.rest_confined(1, thrown(cascade, 7), group, unwatched);
+    const auto rest = cascade.rest_confined(1, random_start(cascade, 7), group, unwatched);
     if (!rest) continue;
     CHECK(cascade.system().at(*rest, false).positive_definite());
     const auto has = group_of(cascade.symmetries(), rest->x.leftCols(cascade.finest().joints), 0.1);

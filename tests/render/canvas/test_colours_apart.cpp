@@ -68,7 +68,7 @@ void check_all_apart(const std::vector<Colour>& colours) {
 
 }  // namespace
 
-TEST_CASE("what is red to most readers is not distinct from green for all") {
+TEST_CASE("red is distinct from blue for every kind of sight, brown not from olive green") {
   CHECK(apart({1, 0, 0, 1}, {0, 0, 1, 1}) > clearly);
   CHECK(apart({0.55f, 0.40f, 0.10f, 1}, {0.35f, 0.47f, 0.10f, 1}) < clearly);
 }

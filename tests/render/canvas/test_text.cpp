@@ -68,7 +68,7 @@ TEST_CASE("numbers have a true minus and no negative zero") {
   CHECK(scientific(0, 2) == "0");
 }
 
-TEST_CASE("numbers do not follow the locale") {
+TEST_CASE("numbers in pictures do not follow the locale") {
   const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
   const std::string number = fixed(1234.5, 1), tick = labels(linear_ticks(0, 0.5, 5)).at(1);
   std::locale::global(before);

@@ -40,7 +40,7 @@ struct Subject {
 
 class Easel {
  public:
-  Easel() : studio_(std::move(*test::studio())) {}
+  Easel() : studio_(value_of(test::studio())) {}
   Image operator()(const Subject& subject) {
     const Stage stage(subject.run, subject.style);
     const record::Frame& frame = subject.run.frames[std::size_t(subject.at)];
@@ -122,7 +122,7 @@ Change perturbed(double size_mm, int seed) {
 
 }  // namespace
 
-TEST_CASE("the metric catches every injected error", "[image][image][standard]") {
+TEST_CASE("the metric catches every injected error", "[image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
   CHECK(errors().size() >= 20);
@@ -154,7 +154,7 @@ TEST_CASE("the metric catches a single lost joint", "[image]") {
   CHECK_FALSE(worst.same());
 }
 
-TEST_CASE("the metric passes every harmless variation", "[image][image][standard]") {
+TEST_CASE("the metric passes every harmless variation", "[image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
   int variations = 0, changed = 0;

@@ -70,7 +70,7 @@ TEST_CASE("runs shown together share one range, so that what is not curved does 
   CHECK(alone->scale.high >= 0.02);
 }
 
-TEST_CASE("the change of K starts at nothing, and the style's range goes before") {
+TEST_CASE("the range of the change of K contains 0, and a range of the style replaces it") {
   MovieStyle style;
   style.colour_by = ColourBy::K_change;
   const auto change = bar({of_K(0.5, 0.45)}, style);

@@ -60,7 +60,7 @@ void check_cancelled(Work work) {
   });
   const auto ended = work(watch);
   stopper.join();
-  CHECK(refusal(ended, Fault::cancelled) != "none");
+  CHECK(refusal(ended, Fault::cancelled) == "stopped");
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
 }
 
@@ -136,9 +136,6 @@ TEST_CASE("`hold`, pace, title card and the kind of file are in the command") {
   const auto line = [](const preset::Movie& timing, const char* file) {
     return shell_line(encode_arguments("frames", timing, file));
   };
-  const auto has = [](const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-  };
   preset::Movie held, timed, eased, titled;
   held.hold_first_s = 1;
   held.hold_s = 1.5;
@@ -146,14 +143,15 @@ TEST_CASE("`hold`, pace, title card and the kind of file are in the command") {
   timed.seconds = 4;
   eased.pace = Pace::eased;
   titled.title_s = 2;
-  CHECK(has(line(held, "m.mp4"),
-            "tpad=start_mode=clone:start_duration=1.000:stop_mode=clone:stop_duration=1.500"));
-  CHECK(has(line(timed, "m.mp4"), "N*0.066667/TB"));
-  CHECK(has(line(eased, "m.mp4"), "asin(1-2*N/59)"));
-  CHECK(has(line(titled, "m.mp4"), "file:title.png"));
-  CHECK(has(line({}, "m.mp4"), "-color_primaries bt709"));
-  CHECK(has(line({}, "m.webm"), "libvpx-vp9"));
-  CHECK(has(line({}, "m.gif"), "paletteuse"));
+  CHECK_THAT(line(held, "m.mp4"),
+             Catch::Contains(
+                 "tpad=start_mode=clone:start_duration=1.000:stop_mode=clone:stop_duration=1.500"));
+  CHECK_THAT(line(timed, "m.mp4"), Catch::Contains("N*0.066667/TB"));
+  CHECK_THAT(line(eased, "m.mp4"), Catch::Contains("asin(1-2*N/59)"));
+  CHECK_THAT(line(titled, "m.mp4"), Catch::Contains("file:title.png"));
+  CHECK_THAT(line({}, "m.mp4"), Catch::Contains("-color_primaries bt709"));
+  CHECK_THAT(line({}, "m.webm"), Catch::Contains("libvpx-vp9"));
+  CHECK_THAT(line({}, "m.gif"), Catch::Contains("paletteuse"));
 }
 
 TEST_CASE("a real ffmpeg makes movies of the requested length", "[standard]") {

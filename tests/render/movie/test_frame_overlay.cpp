@@ -32,9 +32,9 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
         CHECK(Box{0, 0, double(width), double(height)}.contains(parts[a]));
         for (std::size_t b = a + 1; b < parts.size(); ++b) CHECK_FALSE(parts[a].overlaps(parts[b]));
       }
-      // at least three tenths of the picture are for the shell
+      // nearly half of the picture is for the shell
       if (width >= 320 && height >= 240)
-        CHECK(layout.view.width * layout.view.height > 0.3 * width * height);
+        CHECK(layout.view.width * layout.view.height > 0.48 * width * height);
       else
         CHECK_FALSE(layout.view.empty());
     }

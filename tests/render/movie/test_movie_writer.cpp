@@ -121,7 +121,7 @@ TEST_CASE("nothing to show next to one another is refused, a stopped movie keeps
   const auto beside = [&](const std::vector<NamedRun>& runs, Fault fault) {
     return refusal(write_side_by_side(runs, small(480, 270), renderer, folder, watch), fault);
   };
-  CHECK(beside({}, Fault::bad_input) != "none");
+  CHECK(beside({}, Fault::bad_input) == "there is no run to show");
   // the longest run decides
   const record::Trajectory run = synthetic::dome(3, 2), shorter = synthetic::dome(2, 2);
   CHECK(beside({{&shorter, "a"}, {&run, "b"}}, Fault::io) == "none");
@@ -129,7 +129,7 @@ TEST_CASE("nothing to show next to one another is refused, a stopped movie keeps
   CHECK(value_of(read_png(folder / frame_name(2))).width == 480);
   CHECK(renderer.outside == 0);
   watch.cancel();
-  CHECK(beside({{&run, "a"}}, Fault::cancelled) != "none");
+  CHECK(beside({{&run, "a"}}, Fault::cancelled) == "stopped");
 }
 
 TEST_CASE("a worker does its jobs on one thread of its own and says how each ended") {

@@ -61,15 +61,37 @@ TEST_CASE("a heading is never the last of its sheet, and a sheet may be ended") 
   CHECK(words_of(sheets).size() == 2);
 }
 
-TEST_CASE("long text is broken, a picture keeps its shape") {
+TEST_CASE("long text is broken into lines on one sheet") {
   render::Sheets sheets("long");
   std::string text;
   for (int k = 0; k < 200; ++k) text += "word" + std::to_string(k) + " ";
   sheets.text(text);
-  sheets.pictures({render::Image(400, 200)});
   const auto words = words_of(sheets);
   REQUIRE(words.size() == 1);
   CHECK(words[0].size() > 10);
+}
+
+TEST_CASE("a picture is as wide as the sheet's text and keeps its shape") {
+  // the height of the text below the pictures
+  const auto below = [](const std::vector<render::Image>& pictures) {
+    render::Sheets sheets("pictures");
+    sheets.pictures(pictures);
+    sheets.text("below");
+    double y = 0;
+    const test::CanvasObserver observer([&](const render::Canvas& canvas) {
+      for (std::size_t k = 0; k < canvas.texts().size(); ++k)
+        if (canvas.width() > 100 && canvas.texts()[k] == "below") y = canvas.text_boxes()[k].y;
+    });
+    CHECK(sheets.pdf().starts_with("%PDF"));
+    REQUIRE(y > 0);
+    return y;
+  };
+  const render::Image low(400, 100), middle(400, 200), high(400, 400);
+  const double quarter = below({middle}) - below({low});
+  CHECK(quarter > 100);
+  CHECK(below({high}) - below({middle}) == Approx(2 * quarter));
+  // two next to each other are half as large, less half of the gap
+  CHECK(below({middle, middle}) - below({low, low}) == Approx(0.5 * quarter).epsilon(0.05));
 }
 
 TEST_CASE("an assembly sheet says what is cut, where ends are fixed and how to assemble") {

@@ -221,8 +221,7 @@ record::StateTables tables() {
 
 }  // namespace
 
-TEST_CASE(
-    "the graph of transitions writes every state and what came back, apart from one another") {
+TEST_CASE("the graph of transitions names every state and counts returns, and no texts overlap") {
   const TemporaryFolder folder;
   {
     const test::CanvasObserver watch([&](const Canvas& canvas) {

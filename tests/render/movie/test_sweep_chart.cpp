@@ -44,7 +44,8 @@ TEST_CASE("a figure over one key: a curve a case, what ended early, what was not
   CHECK_FALSE(plot.x.logarithmic);
 }
 
-TEST_CASE("a figure over a figure, and where it has left its limit") {
+TEST_CASE(
+    "a result is drawn over another, with a line where it differs by a tenth from its limit") {
   const Plot plot =
       sweep_plot(lines(), {.figure = "max_deviation", .x = "stiffness_ratio", .departure = 0.1});
   CHECK(plot.x.logarithmic);
@@ -75,7 +76,7 @@ TEST_CASE("names with their units") {
   CHECK(label_of("newton_iterations") == "newton iterations");
 }
 
-TEST_CASE("words on an axis are at their numbers") {
+TEST_CASE("names on an axis are numbered, and drawn at their numbers") {
   SweepTable table{{"actuation.seed"}, false, false, {}};
   for (const char* seed : {"\"up\"", "\"down\""}) {
     record::PointResult result;
