@@ -53,7 +53,7 @@ struct MouseAction {
   Gesture gesture;
   const char* how;  ///< "left drag"
   const char* help;
-  Button button;
+  std::optional<Button> button;  ///< that is dragged; empty: none is
   Over over;
   bool shift = false;
 };
@@ -79,10 +79,11 @@ class Picker {
   void release(double x, double y);
   void wheel(double steps, double x, double y);
 
-  bool holds() const { return holding_; }
+  bool dragging() const { return holding_; }
 
  private:
   void find(double x, double y);
+  void check_dragged();
   PointOnRod rod_at(double x, double y) const;
   int cell_at(double x, double y) const;
   bool is_covered(int node, double by_mm) const;
@@ -93,8 +94,9 @@ class Picker {
   bool holding_ = false, moved_ = false;
   Gesture gesture_ = Gesture::orbit;
   double begin_x_ = 0, begin_y_ = 0, last_x_ = 0, last_y_ = 0;
-  Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();  // press minus the joint's picture, pixels
-  Eigen::Vector3d place_ = Eigen::Vector3d::Zero(), along_ = Eigen::Vector3d::UnitZ();
+  Eigen::Vector2d press_offset_ =
+      Eigen::Vector2d::Zero();  // press minus the joint's picture, pixels
+  Eigen::Vector3d pushed_from_ = Eigen::Vector3d::Zero(), along_ = Eigen::Vector3d::UnitZ();
 };
 
 }  // namespace gridshell::window

@@ -49,7 +49,7 @@ preset::Step step_of(preset::StepKind kind, const FootprintJoint& joint) {
 }
 
 /// Whether a step continues the one before, so that it can replace it.
-bool goes_on(const preset::Step& before, const preset::Step& step) {
+bool continues(const preset::Step& before, const preset::Step& step) {
   if (before.kind != step.kind) return false;
   if (step.kind == preset::StepKind::move)
     return before.edge_points.empty() && step.edge_points.empty();
@@ -70,10 +70,10 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
                                                ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
                                                : Eigen::Vector3d(session_->nodes().col(*joint)));
   // before a snap the shell is solved on all meshes, as in a run
-  const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
+  const bool snaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
   // ... unless finer meshes do not have this state
-  if (leaps && session_->shell().levels() == 1)
+  if (snaps && session_->shell().levels() == 1)
     (void)session_->remesh(simulate::initial_levels(*now_.scene), watch);
   const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
@@ -139,7 +139,7 @@ void EditSession::add_step(preset::Step step, const Report& report) {
   if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->boundary.dragged);
   const bool eventful = !report.events.empty() || !view_.event.empty();
   const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
-                    !eventful && !last_eventful_ && goes_on(*now_.steps.back(), step);
+                    !eventful && !last_eventful_ && continues(*now_.steps.back(), step);
   if (same) now_.steps.pop_back();
   now_.steps.push_back(std::make_shared<const preset::Step>(std::move(step)));
   steps_drag_ = this_drag_;
@@ -220,6 +220,7 @@ bool EditSession::looks_between() const {
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
   if (session_->holds().empty()) return invalid("no joint is fixed");
+  if (command.joint >= int(now_.scene->footprint.joints.size())) return invalid("no such joint");
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();

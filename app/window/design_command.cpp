@@ -56,7 +56,7 @@ std::string why_not_designed(const ShellView& shell) {
     return "only rods that stretch and bend can be designed: " + needs.front().what;
   if (!shell.held.empty()) return "a joint is fixed: release all joints first";
   if (!shell.steps.empty() || shell.rods_changed_late)
-    return "a hand has moved this shell: take that back first (Undo)";
+    return "this shell was moved: undo those steps first (Undo)";
   return "";
 }
 
@@ -161,8 +161,8 @@ void EditSession::accept_design() {
 }
 
 Result<void> EditSession::act(const AcceptDesign&, const Watch&) {
-  if (!now_.design) return invalid("nothing was designed that could be kept");
-  view_.message = "the designed shell is kept; Ctrl+S saves it with its tables";
+  if (!now_.design) return invalid("there is no design to accept");
+  view_.message = "the design is accepted; Ctrl+S saves the shell with its tables";
   return {};
 }
 
@@ -170,7 +170,7 @@ Result<void> EditSession::act(const DiscardDesign&, const Watch&) {
   if (undo_.empty() || !undo_.back().before_design)
     return invalid(now_.design ? "what was done since the design is to be undone first"
                                : "nothing was designed that could be put back");
-  return travel(undo_, redo_, "");
+  return swap_state(undo_, redo_, "");
 }
 
 }  // namespace gridshell::window

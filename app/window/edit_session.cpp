@@ -32,14 +32,14 @@ void EditSession::execute(const Command& command, const Watch& watch) {
   } catch (const std::exception& error) {
     recover(command, error);
   }
-  redo_aside_.clear();
+  pending_redo_.clear();
 }
 
 void EditSession::run_command(const Command& command, const Watch& watch) {
   const double begin = seconds_now();
   // the end of a drag leaves the message about its events
   const bool settles = is_any<RefineAfterDrag>(command.edit);
-  const bool travels = is_any<Undo, Redo, AcceptDesign, DiscardDesign>(command.edit);
+  const bool swaps_state = is_any<Undo, Redo, AcceptDesign, DiscardDesign>(command.edit);
   if (!settles) {
     view_.error.clear();
     view_.offer.reset();
@@ -50,7 +50,7 @@ void EditSession::run_command(const Command& command, const Watch& watch) {
   if (!settles) view_.push_path.clear();
   this_drag_ = command.drag;
   passing_ = command.passing;
-  remembered_ = !travels && !settles && remember(command);
+  remembered_ = !swaps_state && !settles && remember(command);
   if (!settles && !is_any<Undo, Redo, DiscardDesign>(command.edit)) accept_design();
   if (session_ && command.passing && session_->shell().levels() > 1) coarsen(watch);
   const bool moves =
@@ -70,7 +70,7 @@ void EditSession::run_command(const Command& command, const Watch& watch) {
     take_back_step();
   }
   // refine() finds out whether these meshes still meet the tolerance
-  if (!travels) now_.refined = false;
+  if (!swaps_state) now_.refined = false;
   only_coarse_mesh_ = false;
   update_view();
   if (!settles) view_.seconds = seconds_now() - begin;
@@ -187,7 +187,7 @@ Result<void> EditSession::set_preset_push() {
 
 Result<void> EditSession::act(const Open& command, const Watch& watch) {
   found_.clear();
-  at_rest_.reset();
+  last_found_.reset();
   view_.found.reset();
   return form(command.preset, watch);
 }
@@ -208,7 +208,7 @@ Result<void> EditSession::change_preset(const preset::Preset& preset, const Watc
     case ChangeKind::none:
       break;
     case ChangeKind::looks:
-      take_over_keys(preset);
+      now_.preset = with_boundary_end(preset);
       return {};
     case ChangeKind::accuracy: {
       auto scene = std::make_shared<Scene>(*now_.scene);
@@ -241,20 +241,36 @@ Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watc
 }
 
 Result<void> EditSession::change_rods(const preset::Preset& preset, const Watch& watch) {
-  TRY(scene, scene_of(preset));
-  if (scene->rod_model != now_.scene->rod_model) return rebuild_shell(preset, watch);
-  TRY(report, session_->set_rods(scene->rods, watch));
+  preset::Preset changed = with_boundary_end(preset);
+  TRY(scene, shared_scene_of(changed));
+  if ((*scene)->rod_model != now_.scene->rod_model) return rebuild_shell(preset, watch);
+  const Checkpoint before = session_->save();
+  const bool within_limits = !session_->beyond_limits();
+  TRY(report, session_->set_rods((*scene)->rods, watch));
   TRY_DO(note_events(*report));
-  take_over_keys(preset);
+  // diameters and strengths are those of the scene that a session has
+  const Checkpoint state = session_->save();
+  TRY(session, Simulation::open(*scene, state.shell->plan()));
+  session->restore(state);
+  if (const auto limit = session->beyond_limits(); limit && within_limits) {
+    session_->restore(before);
+    return invalid("these rods would be past a limit in this state ({}): move the shell back first",
+                   text_of_events({*limit}));
+  }
+  session_ = std::move(*session);
+  now_.scene = std::move(*scene);
+  now_.preset = std::move(changed);
   now_.rods_changed_late = !now_.steps.empty();
+  view_.layout.reset();
   return {};
 }
 
-/// Takes all keys of a preset except the end of the boundary's motion, which the scene determines.
-void EditSession::take_over_keys(const preset::Preset& preset) {
-  const double radius = now_.preset.actuation.radius_mm, ratio = now_.preset.actuation.ratio;
-  now_.preset = preset;
-  now_.preset.actuation.radius_mm = radius, now_.preset.actuation.ratio = ratio;
+/// A preset with the end of the boundary's motion that the scene has; in the view it is the current
+/// position.
+preset::Preset EditSession::with_boundary_end(preset::Preset preset) const {
+  preset.actuation.radius_mm = now_.preset.actuation.radius_mm;
+  preset.actuation.ratio = now_.preset.actuation.ratio;
+  return preset;
 }
 
 }  // namespace gridshell::window

@@ -23,16 +23,16 @@ namespace gridshell::window {
 class ScratchFile {
  public:
   /// A range of bytes in the file.
-  struct Place {
+  struct Range {
     std::int64_t at = 0;
     std::size_t size = 0;
   };
   /// Size of the file, bytes.
   std::int64_t bytes() const { return end_; }
   /// Appends bytes and returns their range; nothing if they cannot be written.
-  std::optional<Place> put(std::string_view bytes);
+  std::optional<Range> put(std::string_view bytes);
   /// Reads a range of bytes; empty if it cannot be read.
-  std::string take(const Place& place) const;
+  std::string take(const Range& place) const;
 
  private:
   struct Close {
@@ -74,7 +74,7 @@ class EditSession {
     EditState state;
     Checkpoint checkpoint;
     bool before_design = false;                    ///< the next command was a design
-    std::optional<ScratchFile::Place> saved = {};  ///< the checkpoint's arrays, if in the file
+    std::optional<ScratchFile::Range> saved = {};  ///< the checkpoint's arrays, if in the file
   };
 
   Result<void> act(const Open& command, const Watch& watch);
@@ -95,20 +95,20 @@ class EditSession {
   Result<void> act(const RefineAfterDrag&, const Watch&) { return {}; }
 
   /// A stable equilibrium without constrained joints, to return to.
-  struct RestState {
+  struct FoundState {
     EditState state;
     Checkpoint checkpoint;
     std::shared_ptr<const ShellView> seen;
 
-    bool beside(const RestState& other) const;
-    bool same_as(const RestState& other) const;
+    bool same_boundary(const FoundState& other) const;
+    bool same_as(const FoundState& other) const;
   };
   void note_state();
   std::string note_path(const preset::Step& step, const simulate::StepPath& path, double began_mm,
                         bool began_stable, Report& report);
   bool looks_between() const;
   double pushed_mm(const preset::Step& step) const;
-  std::string place_text(const PathMark& mark) const;
+  std::string position_text(const PathMark& mark) const;
 
   void run_command(const Command& command, const Watch& watch);
   void take_back_step();
@@ -124,7 +124,7 @@ class EditSession {
   void show_design_step(const Scene& scene, const CertifiedStep& step, DesignProgress& course);
   void accept_design();
   Result<void> change_rods(const preset::Preset& preset, const Watch& watch);
-  void take_over_keys(const preset::Preset& preset);
+  preset::Preset with_boundary_end(preset::Preset preset) const;
   Result<void> do_step(preset::Step step, const Watch& watch);
   Result<void> resist(preset::Step step, const Checkpoint& before, const Eigen::Vector3d& reached,
                       const Watch& watch);
@@ -134,8 +134,8 @@ class EditSession {
   Result<void> note_events(const Report& report);
   void coarsen(const Watch& watch);
   bool remember(const Command& command);
-  Result<void> travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to, const char* none);
-  void keep_within_memory(std::deque<UndoStep>& steps);
+  Result<void> swap_state(std::deque<UndoStep>& from, std::deque<UndoStep>& to, const char* none);
+  void limit_memory(std::deque<UndoStep>& steps);
   void clear_scratch();
   bool save_to_scratch(UndoStep& step);
   bool load_from_scratch(UndoStep& step) const;
@@ -146,7 +146,7 @@ class EditSession {
   void update_normals();
   void update_symmetry();
   void update_rods();
-  void update_soft_mode();
+  void update_lowest_mode();
   void update_deviation(const Eigen::VectorXd& of_joints_mm);
 
   /// Position in which a dragged joint was stopped before the rods' strain limit, and one that it
@@ -161,8 +161,8 @@ class EditSession {
   bool passing_ = false;  // the current command is one of a drag that continues
   std::optional<Simulation> session_;
   std::deque<UndoStep> undo_, redo_;
-  std::deque<UndoStep> redo_aside_;  // redo_ until the current command is known to be a step
-  ScratchFile scratch_;              // the arrays of older steps
+  std::deque<UndoStep> pending_redo_;  // redo_ until the current command is known to be a step
+  ScratchFile scratch_;                // the arrays of older steps
   std::int64_t most_bytes_;
   int drag_ = 0;  // drag of the last step to undo
   int this_drag_ = 0,
@@ -172,8 +172,8 @@ class EditSession {
   bool only_coarse_mesh_ = false;  // finer meshes do not have this state
   int nodes_shown_ = 0;            // nodes of the layout in the view
   std::vector<MeshSymmetry> symmetries_;  // symmetries that a state of this shell may have
-  std::vector<RestState> found_;          // states found on one boundary
-  std::optional<RestState> at_rest_;      // the last such state
+  std::vector<FoundState> found_;         // states found on one boundary
+  std::optional<FoundState> last_found_;  // the last such state
   std::function<void(const ShellView&)> listener_;
   ShellView view_;
 };

@@ -171,7 +171,7 @@ void FilePrompt::look(FileUse use, const std::string& folder) {
 }
 
 /// Buttons for folders that are often used.
-void FilePrompt::places(const Panel& panel, FileRequest& request) const {
+void FilePrompt::folder_buttons(const Panel& panel, FileRequest& request) const {
   const char* home = std::getenv("HOME");
   std::error_code error;
   const std::pair<const char*, fs::path> all[] = {{"Home", home ? home : ""},
@@ -259,7 +259,7 @@ void FilePrompt::draw(const Panel& panel, const render::Box& box) {
                   ? "part of a name or a path; Enter opens the first that is shown below"
                   : "path of the file; Enter takes it");
   ImGui::TextDisabled("%s", text.hint);
-  places(panel, request);
+  folder_buttons(panel, request);
   if (request.use == FileUse::save_picture) picture_size(panel, request, viewer.view);
   if (request.use == FileUse::export_shell) endings(panel, request);
   const float foot = 2.6f * ImGui::GetFrameHeightWithSpacing();

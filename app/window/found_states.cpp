@@ -118,7 +118,7 @@ double EditSession::pushed_mm(const preset::Step& step) const {
 }
 
 /// "Rₐ = 124.2 to 122.9 mm", "2.1 mm".
-std::string EditSession::place_text(const PathMark& mark) const {
+std::string EditSession::position_text(const PathMark& mark) const {
   if (mark.joint >= 0) return text_of_place(mark, [](double mm) { return mm; }) + " mm";
   if (now_.preset.footprint.kind != preset::FootprintKind::circle)
     return "progress " + text_of_place(mark, [](double at) { return at; });
@@ -135,16 +135,16 @@ std::string EditSession::note_path(const preset::Step& step, const simulate::Ste
     std::erase_if(report.events, [](const Event& event) {
       return event.kind == Event::Kind::stability_lost && !event.to;
     });
-  const bool leapt =
+  const bool snapped =
       std::ranges::any_of(report.events, [](const Event& e) { return e.to && e.jump; });
   const bool moves = step.kind == preset::StepKind::move,
              pushes = step.kind == preset::StepKind::push;
   // the marks of a branch do not apply to another one
   const auto lost = [](const PathMark& mark) { return mark.unstable; };
-  if ((leapt || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
+  if ((snapped || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
     const double at = session_->boundary.progress;
     now_.path_left = fmt::format("{} at {}", moves || pushes ? "a snap" : word_of(step.kind),
-                                 place_text({at, at}));
+                                 position_text({at, at}));
   }
   if (path.load_steps.empty()) return "";
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
@@ -156,23 +156,24 @@ std::string EditSession::note_path(const preset::Step& step, const simulate::Ste
   const auto marks = marks_of(path, report.events, pushes && joint ? *joint : -1, place);
   add_marks(now_.marks, marks);
   for (const PathMark& mark : marks)
-    if (mark.unstable && report.certificate.stable() && !leapt)
-      view_.message = view_.event = "stable again; not stable on the path at " + place_text(mark);
+    if (mark.unstable && report.certificate.stable() && !snapped)
+      view_.message = view_.event =
+          "stable again; not stable on the path at " + position_text(mark);
   const auto event = std::ranges::find(marks, false, &PathMark::unstable);
-  return event == marks.end() ? "" : place_text(*event);
+  return event == marks.end() ? "" : position_text(*event);
 }
 
 // States that were found.
 
 /// Whether two states belong to the same shell on the same boundary.
-bool EditSession::RestState::beside(const RestState& other) const {
+bool EditSession::FoundState::same_boundary(const FoundState& other) const {
   return state.scene == other.state.scene && nearly(seen->progress, other.seen->progress, 1e-9) &&
          kind_of_change(state.preset, other.state.preset) <= ChangeKind::accuracy;
 }
 
 /// Whether two states are the same or mirror images.
-bool EditSession::RestState::same_as(const RestState& other) const {
-  return beside(other) &&
+bool EditSession::FoundState::same_as(const FoundState& other) const {
+  return same_boundary(other) &&
          nearly(seen->frame.energies.total(), other.seen->frame.energies.total(), 1e-4) &&
          nearly(seen->frame.height_mm, other.seen->frame.height_mm, 1e-3);
 }
@@ -182,27 +183,27 @@ void EditSession::note_state() {
   if (!view_.stable() || !session_->holds().empty() || only_coarse_mesh_ || now_.design ||
       !session_->boundary.dragged.isZero(0))
     return;
-  RestState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
-  const auto is_here = [&](const RestState& one) { return one.same_as(here); };
-  // copied first: if memory runs out, at_rest_ remains as it is
-  std::optional<RestState> before = here;
-  before.swap(at_rest_);
+  FoundState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
+  const auto is_here = [&](const FoundState& one) { return one.same_as(here); };
+  // copied first: if memory runs out, last_found_ remains as it is
+  std::optional<FoundState> before = here;
+  before.swap(last_found_);
   if (std::ranges::any_of(found_, is_here) || found_.size() >= most_states) return;
   const bool among =
-      std::ranges::any_of(found_, [&](const RestState& one) { return one.beside(here); });
-  const bool leapt = before && before->beside(here) && !before->same_as(here);
-  if (!among && !leapt) return;
+      std::ranges::any_of(found_, [&](const FoundState& one) { return one.same_boundary(here); });
+  const bool snapped = before && before->same_boundary(here) && !before->same_as(here);
+  if (!among && !snapped) return;
   if (!among) found_.push_back(std::move(*before));
   found_.push_back(std::move(here));
   std::vector<std::shared_ptr<const ShellView>> seen;
-  for (const RestState& one : found_) seen.push_back(one.seen);
+  for (const FoundState& one : found_) seen.push_back(one.seen);
   view_.found = std::make_shared<const decltype(seen)>(std::move(seen));
 }
 
 Result<void> EditSession::act(const Recall& command, const Watch&) {
   if (command.state < 0 || command.state >= int(found_.size()))
     return invalid("no other state of this shell was met yet");
-  const RestState& state = found_[std::size_t(command.state)];
+  const FoundState& state = found_[std::size_t(command.state)];
   return restore({state.state, state.checkpoint}).map([&] {
     view_.message = fmt::format("state {}", command.state + 1);
   });

@@ -158,16 +158,16 @@ void ShellPicture::show(const render::Image& image) {
 Result<render::Image> picture_of(const PictureRequest& requested, render::Renderer& renderer) {
   PictureRequest request = requested;
   request.show.dark = false;
-  const bool sized = request.kept.width > 0;
+  const bool sized = request.format.width > 0;
   const int width =
-                sized ? request.kept.width / request.show.shells() : 2 * int(request.view.width),
-            height = sized ? request.kept.height : 2 * int(request.view.height);
+                sized ? request.format.width / request.show.shells() : 2 * int(request.view.width),
+            height = sized ? request.format.height : 2 * int(request.view.height);
   // the picture shows at least the width that the view shows
   const double wide = request.view.width / request.view.height, now = double(width) / height;
   request.camera.half_extent_mm *= std::max(1.0, wide / now);
-  auto image = draw_shells(renderer, request, render::draw_quality(request.kept.quality), width,
+  auto image = draw_shells(renderer, request, render::draw_quality(request.format.quality), width,
                            height, least_px * std::max(1.0, height / 720.0));
-  if (!image || !request.kept.legend) return image;
+  if (!image || !request.format.legend) return image;
   const double font = std::max(9.0, height / 45.0);
   const auto key = render::arrow_key(*request.shell->layout, request.show.largest_load_N);
   if (key && request.show.loads && request.shell->frame.loads_N.cols() > 0) {

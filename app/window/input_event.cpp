@@ -91,6 +91,16 @@ static_assert(std::size(forms) == words_of<InputKind>().size());
 
 }  // namespace
 
+std::string utf8_of(unsigned code) {
+  if (code < 0x80) return {char(code)};
+  // as many bytes as it needs: the first has that number of leading ones
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+  constexpr unsigned first[] = {0, 0xc0, 0xe0, 0xf0};
+  std::string letter(1, char(first[more] | code >> (6 * more)));
+  for (int k = more - 1; k >= 0; --k) letter += char(0x80 | (code >> (6 * k) & 0x3f));
+  return letter;
+}
+
 Result<InputEvent> read_event(const std::string& line) {
   Reader reader{std::istringstream(line)};
   InputEvent event;

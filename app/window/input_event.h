@@ -61,6 +61,9 @@ struct InputEvent {
   std::string text = {};  ///< what is typed; or the name of an action, a preset or a control
 };
 
+/// A letter in UTF-8; `code` is its Unicode number.
+std::string utf8_of(unsigned code);
+
 /// Reads a line without its end. Errors: bad_input with what was expected.
 Result<InputEvent> read_event(const std::string& line);
 /// The line of an event, without its end.

@@ -14,6 +14,7 @@
 namespace gridshell::window {
 namespace {
 
+constexpr double least_view_px = 32;
 constexpr double least_view = 400;  // width of the view, points, if plots are next to it
 
 /// Connects keys that ImGui itself uses.
@@ -109,8 +110,8 @@ Result<void> Interface::resize(int width, int height, double density) {
   width_ = width;
   height_ = height;
   density_ = density;
-  shell_anew_ = true;
-  draw_anew();
+  redraw_shell_ = true;
+  force_redraw();
   if (!denser) return {};
   TRY_DO(load_fonts(density));
   painter_->take_fonts(*ImGui::GetIO().Fonts);
@@ -120,7 +121,7 @@ Result<void> Interface::resize(int width, int height, double density) {
 
 // ---- events ----
 
-Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
+Result<Eigen::Vector2d> Interface::pixel_of(const InputEvent& event) const {
   if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
   const Eigen::Vector2d beside(event.x, event.y);
   int i = 0, j = 0;
@@ -146,7 +147,7 @@ Result<void> Interface::take(const InputEvent& event) {
   InputEvent taken = event;
   if (event.kind == InputKind::size) return resize(int(event.x), int(event.y), event.density);
   if (event.kind == InputKind::mouse) {
-    TRY(place, place_of(event));
+    TRY(place, pixel_of(event));
     taken.x = place->x();
     taken.y = place->y();
     taken.text.clear();
@@ -269,7 +270,10 @@ void Interface::press_key(Key key) {
 
 // ---- a frame ----
 
-void Interface::view_panel(const Panel& panel, const render::Box& box) {
+void Interface::view_panel(const Panel& panel, render::Box box) {
+  // in a window without room for it the view has still a picture
+  box.width = std::max(box.width, least_view_px);
+  box.height = std::max(box.height, least_view_px);
   // if two are side by side, the left one is edited
   view_ = box;
   view_.width /= viewer_.show.shells();
@@ -289,7 +293,7 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   const ImGuiIO& io = ImGui::GetIO();
   const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
   mouse_over_view_ = ImGui::IsItemHovered();
-  if (mouse_.holds()) {
+  if (mouse_.dragging()) {
     mouse_.drag(x, y);
     if (!ImGui::IsItemActive()) mouse_.release(x, y);
   } else if (ImGui::IsItemHovered()) {
@@ -355,7 +359,7 @@ void Interface::lay_out() {
 }
 
 bool Interface::busy() const {
-  return !events_.empty() || (viewer_.shell->any() && (shell_anew_ || !sharp_));
+  return !events_.empty() || (viewer_.shell->any() && (redraw_shell_ || !sharp_));
 }
 
 render::Cursor Interface::cursor() const {

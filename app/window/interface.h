@@ -41,9 +41,9 @@ class Interface {
   /// nothing, if it would look like the last one. Errors: those of the renderer.
   Result<bool> frame(double seconds);
   /// Makes one frame in a framebuffer of its own, from which read() takes the picture.
-  Result<void> frame_aside(double seconds);
+  Result<void> frame_offscreen(double seconds);
   /// Makes frame() draw the next frame in any case.
-  void draw_anew() { drawn_.clear(); }
+  void force_redraw() { drawn_.clear(); }
   render::Image read();
 
   /// Whether events are queued, or the picture is not drawn at full resolution yet.
@@ -66,13 +66,13 @@ class Interface {
   Interface(const render::Gl& gl, render::Renderer& renderer, ViewerState& viewer);
   void feed();
   void feed(const InputEvent& event);
-  Result<Eigen::Vector2d> place_of(const InputEvent& event) const;
+  Result<Eigen::Vector2d> pixel_of(const InputEvent& event) const;
   void press_key(Key key);
   void open_menu(Key key);
   bool reaches_controls(Key key) const;
   bool close_top();
   void lay_out();
-  void view_panel(const Panel& panel, const render::Box& box);
+  void view_panel(const Panel& panel, render::Box box);
   Result<void> draw_shell();
   bool take_still(const PictureRequest& shown);
   Result<void> draw_states();
@@ -102,7 +102,7 @@ class Interface {
   int width_ = 1280, height_ = 720;
   double density_ = 1;
   double still_seconds_ = 0;
-  bool shell_anew_ = true, sharp_ = false, dark_ = false;
+  bool redraw_shell_ = true, sharp_ = false, dark_ = false;
   std::optional<ShownShell> shown_;           // what the last picture of the shell shows
   std::uint64_t pictures_ = 0;                // drawn so far
   std::vector<char> drawn_;                   // the draw lists of the last frame
@@ -131,10 +131,10 @@ struct BenchFigures {
   double frame_cpu_ms = 0;
 };
 
-/// Drags the radius to and fro for some seconds and rotates the camera, at most 60 frames a second
-/// and each a new picture, with the engine on its own thread; then waits until the view is sharp.
-/// Frames of the first second do not count as worst ones. Errors: no_equilibrium if the preset has
-/// no shell; those of the renderer.
+/// Drags the radius forward and back for some seconds and rotates the camera, at most 60 frames a
+/// second and each a new picture, with the engine on its own thread; then waits until the view is
+/// sharp. Frames of the first second do not count as worst ones. Errors: no_equilibrium if the
+/// preset has no shell; those of the renderer.
 Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds);
 
 }  // namespace gridshell::window

@@ -136,7 +136,7 @@ Result<std::string> manual_html() {
       "margin:2em auto;padding:0 1em;font:16px/1.5 sans-serif}dt{margin-top:.6em}h3{margin-top:2em}"
       "</style><h1>gridshell</h1>\n";
   std::istringstream lines(*page);
-  bool tag = false;
+  bool tag = false, as_is = false;
   for (std::string line; std::getline(lines, line);) {
     const bool begins = line.starts_with(".SH ") || line.starts_with(".SS ");
     std::string words = html_of(begins ? line.substr(4) : line);
@@ -145,7 +145,9 @@ Result<std::string> manual_html() {
       html += line[2] == 'H' ? fmt::format("<h2>{}</h2>\n", words)
                              : fmt::format("<h3>{}</h3>\n", words);
     else if (line == ".nf" || line == ".fi")
-      html += line == ".nf" ? "<pre>" : "</pre>\n";
+      html += (as_is = line == ".nf") ? "<pre>" : "</pre>\n";
+    else if (as_is)
+      html += words + "\n";
     else if (!line.starts_with('.'))
       html += tag ? fmt::format("<dt>{}</dt>\n", words) : fmt::format("<dd>{}</dd>\n", words);
     tag = line == ".TP";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/window/panel.h"
+#include "engine/core/json.h"
 
 namespace gridshell::window {
 namespace {
@@ -41,26 +42,25 @@ void draw_plan(const Panel& panel, const Scene& scene, ImVec2 low, ImVec2 high) 
 
 }  // namespace
 
-std::string NewShellForm::preset() const {
-  std::string text = fmt::format("title = \"New shell\"\n[rod]\ndiameter_mm = {}\n", diameter_mm_);
-  if (material_ != preset::Material::none)
-    text += fmt::format("material = \"{}\"\n", word_of(material_));
-  text += fmt::format("[footprint]\nspacing_mm = {}\n", spacing_mm_);
-  const std::string& kind = boundaries[boundary_];
+std::string NewShell::preset() const {
+  std::string text = fmt::format("title = \"New shell\"\n[rod]\ndiameter_mm = {}\n", diameter_mm);
+  if (material != preset::Material::none)
+    text += fmt::format("material = \"{}\"\n", word_of(material));
+  text += fmt::format("[footprint]\nspacing_mm = {}\n", spacing_mm);
+  const std::string& kind = boundaries[boundary];
   if (kind == "circle")
     return text + fmt::format(
                       "rods = {}\nradius_mm = {}\nplacement = \"{}\"\n[actuation]\nratio = "
                       "{}\n",
-                      rods_, radius_mm_, rods_ % 2 == 0 ? "half" : "on_axis", ratio_);
+                      rods, radius_mm, rods % 2 == 0 ? "half" : "on_axis", ratio);
   text += fmt::format("kind = \"curve\"\nboundary = \"{}\"\n", kind);
-  text += kind == "file"
-              ? fmt::format("file = '{}'\n", file_)
-              : fmt::format("half_x_mm = {}\nhalf_y_mm = {}\n", half_mm_[0], half_mm_[1]);
-  return text + fmt::format("[actuation]\nscale = {}\n", ratio_);
+  text += kind == "file" ? fmt::format("file = {}\n", line_of(Json(file)))
+                         : fmt::format("half_x_mm = {}\nhalf_y_mm = {}\n", half_mm[0], half_mm[1]);
+  return text + fmt::format("[actuation]\nscale = {}\n", ratio);
 }
 
 void NewShellForm::build() {
-  if (const std::string text = preset(); text != built_) {
+  if (const std::string text = values_.preset(); text != built_) {
     built_ = text;
     presets_ = preset::read_preset_text(text, "new shell", "new_shell");
     scene_ =
@@ -68,41 +68,36 @@ void NewShellForm::build() {
   }
 }
 
-void NewShellForm::number(const Panel& panel, const char* text, const char* name, double& value,
-                          float low, float high, const char* format) const {
-  float shown = float(value);
-  label(panel, text);
-  if (ImGui::DragFloat(fmt::format("##{}", name).c_str(), &shown, 0.005f * std::abs(shown), low,
-                       high, format, ImGuiSliderFlags_AlwaysClamp))
-    value = std::stod(fmt::format("{:.7g}", shown));
-  panel.named(name, text);
-}
-
 void NewShellForm::fields(const Panel& panel) {
+  const auto number = [&](const char* text, const char* name, double& value, float low, float high,
+                          const char* format) {
+    window::number(panel, text, name, text, value, 0.005f * float(std::abs(value)), low, high,
+                   format);
+  };
   label(panel, "boundary");
-  if (const auto k = choose("##boundary", boundary_texts[boundary_], boundary_texts))
-    boundary_ = *k;
+  if (const auto k = choose("##boundary", boundary_texts[values_.boundary], boundary_texts))
+    values_.boundary = *k;
   panel.named("new_boundary", "the curve that cuts the flat square grid");
-  if (boundaries[boundary_] == "circle") {
-    number(panel, "radius Rₒ", "new_radius", radius_mm_, 1, 1e6f, "%.6g mm");
+  if (boundaries[values_.boundary] == "circle") {
+    number("radius Rₒ", "new_radius", values_.radius_mm, 1, 1e6f, "%.6g mm");
     label(panel, "rods per direction");
-    ImGui::DragInt("##rods", &rods_, 0.1f, 2, 500, "%d", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::DragInt("##rods", &values_.rods, 0.1f, 2, 500, "%d", ImGuiSliderFlags_AlwaysClamp);
     panel.named("new_rods", "number of parallel rods in each of the two directions");
-  } else if (boundaries[boundary_] == "file") {
+  } else if (boundaries[values_.boundary] == "file") {
     label(panel, "drawing");
-    text_input("##drawing", file_, "plan.dxf, .svg or .obj");
+    text_input("##drawing", values_.file, "plan.dxf, .svg or .obj");
     panel.named("new_file", "path of a drawing; its largest closed line is the boundary");
   } else {
-    number(panel, "half width", "new_half_x", half_mm_[0], 1, 1e6f, "%.6g mm");
-    number(panel, "half depth", "new_half_y", half_mm_[1], 1, 1e6f, "%.6g mm");
+    number("half width", "new_half_x", values_.half_mm[0], 1, 1e6f, "%.6g mm");
+    number("half depth", "new_half_y", values_.half_mm[1], 1, 1e6f, "%.6g mm");
   }
-  number(panel, "spacing d", "new_spacing", spacing_mm_, 0.1f, 1e5f, "%.6g mm");
-  number(panel, boundary_ == 0 ? "drawn in to Rₐ/Rₒ" : "drawn in to", "new_ratio", ratio_, 0.3f, 1,
-         "%.3g");
+  number("spacing d", "new_spacing", values_.spacing_mm, 0.1f, 1e5f, "%.6g mm");
+  number(values_.boundary == 0 ? "drawn in to Rₐ/Rₒ" : "drawn in to", "new_ratio", values_.ratio,
+         0.3f, 1, "%.3g");
   label(panel, "material");
-  choose_word("##material", material_);
+  choose_word("##material", values_.material);
   panel.named("new_material", "stiffness, density and strength; none: the paper's nitinol wire");
-  number(panel, "rod diameter", "new_diameter", diameter_mm_, 0.01f, 1000, "%.6g mm");
+  number("rod diameter", "new_diameter", values_.diameter_mm, 0.01f, 1000, "%.6g mm");
 }
 
 /// Shows why there is no such shell, and a button for a radius with room for the rods.
@@ -111,9 +106,9 @@ void NewShellForm::refusal(const Panel& panel) {
   ImGui::TextWrapped("%s", scene_.error().message.c_str());
   ImGui::PopStyleColor();
   // the longest leg is 0.8 times the spacing, as in the paper
-  const double fits = (0.5 * (rods_ - 1) + 0.8) * spacing_mm_;
-  if (boundaries[boundary_] != "circle" || std::abs(fits - radius_mm_) < 1e-9) return;
-  if (ImGui::Button(fmt::format("Rₒ = {:.5g} mm: do it", fits).c_str())) radius_mm_ = fits;
+  const double fits = (0.5 * (values_.rods - 1) + 0.8) * values_.spacing_mm;
+  if (boundaries[values_.boundary] != "circle" || std::abs(fits - values_.radius_mm) < 1e-9) return;
+  if (ImGui::Button(fmt::format("Rₒ = {:.5g} mm: do it", fits).c_str())) values_.radius_mm = fits;
   panel.named("new_fit", "a radius that has room for as many rods");
 }
 

@@ -183,6 +183,16 @@ void label(const Panel& panel, const char* text) {
   ImGui::SetNextItemWidth(-1);
 }
 
+void number(const Panel& panel, const char* text, const std::string& name, const std::string& tip,
+            double& value, float step, float low, float high, const char* format) {
+  float shown = float(value);
+  label(panel, text);
+  if (ImGui::DragFloat(("##" + name).c_str(), &shown, step, low, high, format,
+                       ImGuiSliderFlags_AlwaysClamp))
+    value = std::stod(fmt::format("{:.7g}", shown));
+  panel.named(name, tip);
+}
+
 void heading(const Panel& panel, const char* text) {
   ImGui::Dummy({0, panel.px(2)});
   ImGui::TextDisabled("%s", text);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/window/actions.h"
+#include "app/window/new_shell.h"
 #include "engine/gridshell.h"
 #include "render/canvas/canvas.h"
 #include "render/gl/opengl.h"
@@ -63,6 +64,9 @@ std::string help_of(const preset::Field& field);
 bool is_popup_open();
 /// A label, with space for the control that follows it.
 void label(const Panel& panel, const char* text);
+/// A number that is dragged by `step` a pixel or typed, with a label before it and a tip.
+void number(const Panel& panel, const char* text, const std::string& name, const std::string& tip,
+            double& value, float step, float low, float high, const char* format);
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
 /// A slider as wide as the panel, and its number, the control NAME_number, which can be clicked and
@@ -195,7 +199,7 @@ class FilePrompt {
   };
 
   void look(FileUse use, const std::string& folder);
-  void places(const Panel& panel, FileRequest& request) const;
+  void folder_buttons(const Panel& panel, FileRequest& request) const;
   bool list(const Panel& panel, FileRequest& request);
   bool complete(FileRequest& request) const;
 
@@ -214,19 +218,11 @@ class NewShellForm {
   void draw(const Panel& panel, const render::Box& box);
 
  private:
-  std::string preset() const;
   void build();
   void fields(const Panel& panel);
   void refusal(const Panel& panel);
-  void number(const Panel& panel, const char* text, const char* name, double& value, float low,
-              float high, const char* format) const;
 
-  std::size_t boundary_ = 0;
-  int rods_ = 12;
-  double radius_mm_ = 126, half_mm_[2] = {160, 110}, spacing_mm_ = 20, ratio_ = 0.8,
-         diameter_mm_ = 0.254;
-  std::string file_;
-  preset::Material material_ = preset::Material::none;
+  NewShell values_;
   std::string built_;  // the text of the preset from which the next two were made
   Result<preset::Presets> presets_ = invalid("");
   Result<Scene> scene_ = invalid("");

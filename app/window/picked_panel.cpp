@@ -65,7 +65,7 @@ void push_depth(const Panel& panel, int joint) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
   Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
-  for (const HeldJoint& held : shell.held)
+  for (const ConstrainedJoint& held : shell.held)
     if (held.joint == joint && !held.along.isZero(0)) along = held.along, from -= held.moved_mm;
   float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
   if (std::abs(depth) < 5e-4f) depth = 0;

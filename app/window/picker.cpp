@@ -26,7 +26,7 @@ double fraction_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
 
 Eigen::Vector2d Picker::pixel_of(int node) const {
   return render::to_pixel(viewer_.camera, int(viewer_.view.width), int(viewer_.view.height),
-                          place_of(*viewer_.shell, viewer_.show, node));
+                          node_position(*viewer_.shell, viewer_.show, node));
 }
 
 /// Finds the joint or edge point under the mouse; of several near ones that nearest to the camera.
@@ -93,19 +93,29 @@ void Picker::press(Button button, bool shift, double x, double y) {
   begin_x_ = last_x_ = x;
   begin_y_ = last_y_ = y;
   if (joint_ >= 0) {
-    place_ = viewer_.shell->frame.nodes.col(joint_);
-    grip_ = Eigen::Vector2d(x, y) - pixel_of(joint_);
+    pushed_from_ = viewer_.shell->frame.nodes.col(joint_);
+    press_offset_ = Eigen::Vector2d(x, y) - pixel_of(joint_);
     along_ = viewer_.shell->normals.col(joint_);
     // a constrained joint is pushed along the direction of its constraint
-    for (const HeldJoint& held : viewer_.shell->held)
+    for (const ConstrainedJoint& held : viewer_.shell->held)
       if (held.joint == joint_ && !held.along.isZero(0)) along_ = held.along;
   }
   if (edge_ >= 0)
-    place_ = viewer_.shell->frame.nodes.col(viewer_.shell->layout->edge_points[std::size_t(edge_)]);
+    pushed_from_ =
+        viewer_.shell->frame.nodes.col(viewer_.shell->layout->edge_points[std::size_t(edge_)]);
+}
+
+/// Ends what is dragged if a shell without it has come meanwhile.
+void Picker::check_dragged() {
+  const record::Layout& layout = *viewer_.shell->layout;
+  if (joint_ < int(layout.joints.size()) && edge_ < int(layout.edge_points.size())) return;
+  joint_ = edge_ = -1;
+  gesture_ = Gesture::pick;
 }
 
 void Picker::drag(double x, double y) {
   if (!holding_) return;
+  if (viewer_.shell->any()) check_dragged();
   const double dx = x - last_x_, dy = y - last_y_, from_x = x - begin_x_, from_y = y - begin_y_;
   if (!moved_ && std::hypot(from_x, from_y) < click_px) return;
   if (dx == 0 && dy == 0) return;
@@ -119,22 +129,24 @@ void Picker::drag(double x, double y) {
     case Gesture::pan:
       return pan(camera, viewer_.view, dx, dy);
     case Gesture::push: {
-      double depth = dragged_along(camera, viewer_.view, place_, along_, from_x, from_y);
+      double depth = dragged_along(camera, viewer_.view, pushed_from_, along_, from_x, from_y);
       // the joint may move sideways, so its current position counts, except if the camera looks
       // along the push
       const Eigen::Vector3d at = viewer_.shell->frame.nodes.col(joint_);
-      const double under = pushed_under(camera, viewer_.view, place_, along_, at,
-                                        Eigen::Vector2d(x, y) - grip_ - pixel_of(joint_));
-      if (under != (at - place_).dot(along_)) depth = under;
-      return viewer_.post(Push{joint_, place_ + depth * along_, along_}, true);
+      const double under = pushed_under(camera, viewer_.view, pushed_from_, along_, at,
+                                        Eigen::Vector2d(x, y) - press_offset_ - pixel_of(joint_));
+      if (under != (at - pushed_from_).dot(along_)) depth = under;
+      return viewer_.post(Push{joint_, pushed_from_ + depth * along_, along_}, true);
     }
     case Gesture::pull_freely:
       return viewer_.post(
-          Push{joint_, place_ + dragged_in_plane(camera, viewer_.view, place_, from_x, from_y)},
+          Push{joint_,
+               pushed_from_ + dragged_in_plane(camera, viewer_.view, pushed_from_, from_x, from_y)},
           true);
     case Gesture::drag_edge:
       return viewer_.post(
-          DragEdge{edge_, place_ + dragged_level(camera, viewer_.view, place_, from_x, from_y)},
+          DragEdge{edge_, pushed_from_ +
+                              dragged_level(camera, viewer_.view, pushed_from_, from_x, from_y)},
           true);
     case Gesture::let_go_joint:
     case Gesture::zoom:
@@ -145,6 +157,7 @@ void Picker::drag(double x, double y) {
 
 void Picker::release(double x, double y) {
   if (!holding_) return;
+  if (viewer_.shell->any()) check_dragged();
   holding_ = false;
   const bool at_shell = gesture_ == Gesture::push || gesture_ == Gesture::pull_freely ||
                         gesture_ == Gesture::drag_edge;

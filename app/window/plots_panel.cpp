@@ -68,15 +68,15 @@ class PlotBox {
     draw_marks(curve, x);
     ticks_y(y, curve.logarithmic);
     ticks_x(x, curve.whole);
-    if (curve.bars)
-      draw_bars(points_of(curve.y), height_of(y, 0));
-    else
-      draw_line(points_of(curve.y), curve, ink());
-    if (!curve.second.empty()) draw_line(points_of(curve.second), curve, pale());
     const auto points = points_of(curve.y);
+    if (curve.bars)
+      draw_bars(points, height_of(y, 0));
+    else
+      draw_line(points, curve, ink());
+    if (!curve.second.empty()) draw_line(points_of(curve.second), curve, pale());
     for (const std::size_t k : curve.unstable)
       list_.AddCircleFilled(points[k], panel_.px(2.5), text_colours(panel_.viewer.show.dark).error);
-    tell_nearest(curve, points_of(curve.y));
+    show_nearest(curve, points);
   }
 
  private:
@@ -181,7 +181,7 @@ class PlotBox {
     }
   }
   /// Shows the values of the point nearest to the mouse.
-  void tell_nearest(const Curve& curve, const std::vector<ImVec2>& points) {
+  void show_nearest(const Curve& curve, const std::vector<ImVec2>& points) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const bool menu = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     if (menu || !ImGui::IsMouseHoveringRect(from_, to_) || ImGui::IsAnyMouseDown()) return;

@@ -156,25 +156,19 @@ void what_varies(const Panel& panel) {
   }
 }
 
-void number(const Panel& panel, const char* text, const char* key, double& value, float step,
-            float low, float high, const char* format) {
-  label(panel, text);
-  float shown = float(value);
-  if (ImGui::DragFloat((std::string("##") + key).c_str(), &shown, step, low, high, format,
-                       ImGuiSliderFlags_AlwaysClamp))
-    value = std::round(1e4 * double(shown)) / 1e4;
-  panel.named(std::string("design_") + key, tip_of(key));
-}
-
 void choices(const Panel& panel) {
   preset::Inverse& inverse = panel.viewer.design.inverse;
+  const auto number = [&](const char* text, const char* key, double& value, float step, float low,
+                          float high, const char* format) {
+    window::number(panel, text, std::string("design_") + key, tip_of(key), value, step, low, high,
+                   format);
+  };
   label(panel, "target");
   choose_word("##target", inverse.target);
   panel.named("design_target", tip_of("target"));
-  number(panel, "norm", "norm", inverse.norm, 0.1f, 2, 32, "p = %.3g");
-  number(panel, "furthest move", "move_limit_mm", inverse.move_limit_mm, 0.05f, 0.01f, 100,
-         "%.3g mm");
-  number(panel, "rounding", "round_mm", inverse.round_mm, 0.01f, 0, 10, "%.3g mm");
+  number("norm", "norm", inverse.norm, 0.1f, 2, 32, "p = %.3g");
+  number("furthest move", "move_limit_mm", inverse.move_limit_mm, 0.05f, 0.01f, 100, "%.3g mm");
+  number("rounding", "round_mm", inverse.round_mm, 0.01f, 0, 10, "%.3g mm");
   label(panel, "iterations");
   ImGui::DragInt("##most", &panel.viewer.design.most_iterations, 0.1f, 1, 100, "at most %d",
                  ImGuiSliderFlags_AlwaysClamp);
@@ -193,7 +187,7 @@ void buttons(const Panel& panel) {
   panel.button("design_put_back", "Put back");
 }
 
-void standing(const Panel& panel, const DesignProgress& course) {
+void progress(const Panel& panel, const DesignProgress& course) {
   const double percent = 100 / course.length_scale_mm;
   const DesignPoint &first = course.points.front(), &now = course.points.back();
   const char* how = course.under_way ? "running"
@@ -378,7 +372,7 @@ void design_panel(const Panel& panel, const render::Box& box) {
   }
   if (why.empty() || shell.design) buttons(panel);
   if (shell.design) {
-    standing(panel, *shell.design);
+    progress(panel, *shell.design);
     plot(panel, *shell.design);
   }
   ImGui::End();

@@ -27,14 +27,6 @@ constexpr double longest_moving_s = 0.003;
 constexpr double frame_s = 1.0 / 60;
 constexpr double still_wait_s = 0.05;  // time of waiting for events if nothing moves
 
-std::string utf8(unsigned code) {
-  const auto byte = [](unsigned value) { return char((unsigned char)value); };
-  if (code < 0x80) return {byte(code)};
-  if (code < 0x800) return {byte(0xc0 | code >> 6), byte(0x80 | (code & 0x3f))};
-  return {byte(0xe0 | (code >> 12 & 0xf)), byte(0x80 | (code >> 6 & 0x3f)),
-          byte(0x80 | (code & 0x3f))};
-}
-
 /// A listener that turns what happens to the window into events.
 render::WindowListener listener_to(const std::function<void(const InputEvent&)>& take) {
   render::WindowListener listener;
@@ -50,7 +42,7 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
       take({.kind = down ? InputKind::down : InputKind::up, .key = *key});
   };
   listener.text = [take](unsigned code) {
-    if (code >= 0x20) take({.kind = InputKind::type, .text = utf8(code)});
+    if (code >= 0x20) take({.kind = InputKind::type, .text = utf8_of(code)});
   };
   listener.dropped = [take](const std::string& path) {
     take({.kind = InputKind::open, .text = path});
@@ -64,15 +56,14 @@ constexpr double turn_deg = 0.2;            // per frame of a bench
 constexpr double longest_to_sharpen_s = 5;  // of a bench
 
 /// Draws frames until all events are taken, the engine is idle and the view shows its result.
-Result<void> rest(Interface& interface, ViewerState& viewer) {
+Result<void> run_until_idle(Interface& interface, ViewerState& viewer) {
   for (int k = 0; k < most_frames; ++k) {
     viewer.engine.wait();
     for (BackgroundTask* task : viewer.tasks()) task->wait();
-    TRY_DO(interface.frame_aside(frame_s));
-    const bool rests = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
-                       !viewer.playing &&
-                       std::ranges::all_of(viewer.tasks(), &BackgroundTask::idle);
-    if (rests && !interface.events_wait()) return {};
+    TRY_DO(interface.frame_offscreen(frame_s));
+    const bool idle = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
+                      !viewer.playing && std::ranges::all_of(viewer.tasks(), &BackgroundTask::idle);
+    if (idle && !interface.events_wait()) return {};
   }
   return {};
 }
@@ -80,7 +71,7 @@ Result<void> rest(Interface& interface, ViewerState& viewer) {
 Result<void> wait_for(Interface& interface, ViewerState& viewer, double seconds) {
   for (double t = 0; t < seconds; t += frame_s) {
     viewer.engine.wait();
-    TRY_DO(interface.frame_aside(frame_s));
+    TRY_DO(interface.frame_offscreen(frame_s));
   }
   return {};
 }
@@ -89,7 +80,7 @@ Result<void> wait_for(Interface& interface, ViewerState& viewer, double seconds)
 /// that the frame itself took.
 Result<double> paced_frame(Interface& interface, double& due) {
   const double begin = seconds_now();
-  TRY_DO(interface.frame_aside(frame_s));
+  TRY_DO(interface.frame_offscreen(frame_s));
   const double end = seconds_now();
   due = std::max(due + frame_s, end);
   std::this_thread::sleep_for(std::chrono::duration<double>(due - end));
@@ -102,7 +93,7 @@ Result<double> paced_frame(Interface& interface, double& due) {
 Result<void> Interface::draw_shell() {
   if (!viewer_.shell->any() || viewer_.view.width < 16) return {};
   const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
-  const bool again = shell_anew_ || shown != shown_;
+  const bool again = redraw_shell_ || shown != shown_;
   if (again) still_seconds_ = 0;
   const bool idle = viewer_.engine.idle();
   const bool sharp = !again && still_seconds_ >= (idle ? sharp_after_s : sharp_while_busy_s) &&
@@ -110,7 +101,7 @@ Result<void> Interface::draw_shell() {
   if (!again && (!sharp || sharp_)) return {};
   if (sharp && take_still(viewer_.picture_request())) return {};
   shown_ = shown;
-  shell_anew_ = false;
+  redraw_shell_ = false;
   sharp_ = sharp;
   ++pictures_;
   return picture_.draw(viewer_.picture_request(), sharp ? Resolution::still : Resolution::moving);
@@ -182,7 +173,7 @@ Result<bool> Interface::compose(double seconds) {
   io.DisplaySize = {float(width_), float(height_)};
   io.DeltaTime = float(std::clamp(seconds, 1e-4, 0.5));
   still_seconds_ += seconds;
-  shell_anew_ |= viewer_.tick(seconds);
+  redraw_shell_ |= viewer_.tick(seconds);
   if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
   feed();
   TRY_DO(draw_states());
@@ -213,7 +204,7 @@ Result<bool> Interface::frame(double seconds) {
   return true;
 }
 
-Result<void> Interface::frame_aside(double seconds) {
+Result<void> Interface::frame_offscreen(double seconds) {
   TRY(again, compose(seconds));
   if (!*again) return {};
   TRY_DO(target_.bind(width_, height_, GL_RGBA8));
@@ -247,7 +238,7 @@ Result<void> run_desktop(ViewerState& viewer, const std::function<void(const Inp
     if (auto taken = (*interface)->take(event); !taken) fault = taken;
   };
   render::WindowListener listener = listener_to(take);
-  listener.uncovered = [&] { (*interface)->draw_anew(); };
+  listener.uncovered = [&] { (*interface)->force_redraw(); };
   int width = 0, height = 0;
   for (double last = seconds_now(); fault && !viewer.over && !stopped();) {
     if ((*window)->wants_to_close()) break;
@@ -275,22 +266,22 @@ Result<void> run_desktop(ViewerState& viewer, const std::function<void(const Inp
 
 Result<void> play(Interface& interface, ViewerState& viewer,
                   const std::vector<InputEvent>& events) {
-  TRY_DO(rest(interface, viewer));
+  TRY_DO(run_until_idle(interface, viewer));
   for (const InputEvent& event : events) {
     if (viewer.over) break;
     const auto done = interface.take(event).and_then([&] {
       return event.kind == InputKind::wait ? wait_for(interface, viewer, event.x)
-                                           : rest(interface, viewer);
+                                           : run_until_idle(interface, viewer);
     });
     if (!done) return fail(done.error().fault, write_event(event) + ": " + done.error().message);
   }
   for (int k = 0; k < frames_to_sharpen && interface.busy(); ++k)
-    TRY_DO(interface.frame_aside(frame_s));
-  return interface.frame_aside(frame_s);
+    TRY_DO(interface.frame_offscreen(frame_s));
+  return interface.frame_offscreen(frame_s);
 }
 
 Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds) {
-  TRY_DO(rest(interface, viewer));
+  TRY_DO(run_until_idle(interface, viewer));
   if (!viewer.shell->any()) return fail(Fault::no_equilibrium, viewer.message);
   BenchFigures figures;
   const double begin = seconds_now();

@@ -17,9 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int least_px = 16, most_px = 16384;
-constexpr double shift_seen_px = 2;  // a smaller shift of the camera is not saved
+constexpr double least_zoom = 0.01, most_zoom = 100;  // of [movie] zoom
+constexpr double shift_seen_px = 2;                   // a smaller shift of the camera is not saved
 
-double rounded(double value, double step) { return step * std::round(value / step); }
+double rounded(double value, double per_unit) { return std::round(per_unit * value) / per_unit; }
 
 /// What a saved preset may not reproduce; empty: nothing.
 std::string left_out(const ShellView& shell) {
@@ -95,18 +96,19 @@ fs::path ViewerState::path_to_save(const std::vector<std::string>& endings) cons
 /// Writes camera and colours into the keys of [movie] and [style].
 void ViewerState::put_view(preset::Preset& preset) const {
   preset::Movie& movie = preset.movie;
-  movie.azimuth_deg = rounded(camera.azimuth_deg, 0.1);
-  movie.elevation_deg = rounded(camera.elevation_deg, 0.1);
+  movie.azimuth_deg = rounded(camera.azimuth_deg, 10);
+  movie.elevation_deg = rounded(camera.elevation_deg, 10);
   movie.view = preset::View::free;
   movie.turn_deg = 0;
   movie.orthographic = camera.field_of_view_deg == 0;
   const render::Camera fitted = fitted_view();
-  movie.zoom = rounded(fitted.half_extent_mm / camera.half_extent_mm, 0.01);
+  movie.zoom = std::clamp(rounded(fitted.half_extent_mm / camera.half_extent_mm, 100), least_zoom,
+                          most_zoom);
   movie.target_mm.clear();
   // a movie of all parts is framed later, when all of its frames are known
   const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
   if ((camera.target - fitted.target).norm() > shift_mm)
-    for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 0.1));
+    for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 10));
   if (show.colour_by == ColourBy::none || values_of(*shell, show).size() > 0)
     movie.colour_by = show.colour_by;
   if (range_of == RangeOf::hand) preset.style.range = {show.scale.low, show.scale.high};
@@ -143,7 +145,7 @@ void ViewerState::save_preset() {
 void ViewerState::save_preset_as(const fs::path& file) {
   if (auto written = write_preset(preset_to_save(), file); !written)
     return say(written.error().message, true);
-  say("saved " + fs::absolute(file).string() + left_out(*shell), !left_out(*shell).empty());
+  say("saved " + fs::absolute(file).string() + left_out(*shell));
 }
 
 void ViewerState::save_picture() {
@@ -155,7 +157,7 @@ void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& for
   if (picture_task.under_way()) return say("one picture is being drawn already", true);
   if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
   PictureRequest request = picture_request();
-  request.kept = format;
+  request.format = format;
   picture_task.begin([draw = library.draw_picture, request, file](
                          const ProgressListener&, const Watch&) { return draw(request, file); },
                      file);
@@ -273,13 +275,13 @@ void ViewerState::compare_with_net() {
 }
 
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
-  set_beside(show.beside && other);
+  show_side_by_side(show.beside && other);
   show.other = std::move(other);
   // the colours may show the distance from it
   if (show.colour_by == ColourBy::displacement) show.scale = scale_of(*shell, show);
 }
 
-void ViewerState::set_beside(bool on) {
+void ViewerState::show_side_by_side(bool on) {
   if (on && !show.other) return say("nothing is compared: File > Compare with…", true);
   if (on == show.beside) return;
   show.beside = on;
@@ -331,7 +333,7 @@ void ViewerState::save_movie() {
                        const ProgressListener& listener,
                        const Watch& watch) { return make(file, folder, listener, watch); },
                    folder);
-  say("making a movie in " + folder.string() + left_out(*shell), !left_out(*shell).empty());
+  say("making a movie in " + folder.string() + left_out(*shell));
 }
 
 void ViewerState::report_finished_tasks() {

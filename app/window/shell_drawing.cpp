@@ -41,32 +41,31 @@ constexpr ColourText colour_texts[] = {
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
-bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::Joint>& b) {
-  return std::ranges::equal(a, b, [](const record::Joint& one, const record::Joint& other) {
-    return one.i == other.i && one.j == other.j;
-  });
-}
-
 /// Displacements of the nodes from positions `then`, mm. If those are of another mesh, they are
-/// known at joints and edge points, which come first on every mesh, and interpolated between them.
+/// known at joints and edge points, which come first on every mesh and of which a scan has the
+/// joints alone; they are interpolated between these, and constant past the first and last of a
+/// rod.
 Eigen::VectorXd displacement(const ShellView& shell, const Eigen::Matrix3Xd& then) {
   const Eigen::Matrix3Xd& now = shell.frame.nodes;
   if (now.cols() == then.cols()) return (now - then).colwise().norm().transpose();
   // linearly along each rod
   const record::Layout& layout = *shell.layout;
-  const auto joints = int(layout.joints.size());
-  const auto known = [&](int node) { return node < joints + int(layout.edge_points.size()); };
+  const auto count =
+      std::min(Eigen::Index(layout.joints.size() + layout.edge_points.size()), then.cols());
+  const auto known = [&](int node) { return node < count; };
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(now.cols());
   for (const std::vector<int>& rod : layout.rods) {
-    std::size_t last = 0;
+    std::vector<std::size_t> at;
     for (std::size_t k = 0; k < rod.size(); ++k) {
       if (!known(rod[k])) continue;
       moved[rod[k]] = (now.col(rod[k]) - then.col(rod[k])).norm();
-      for (std::size_t between = last + 1; between < k; ++between) {
-        const double part = double(between - last) / double(k - last);
-        moved[rod[between]] = (1 - part) * moved[rod[last]] + part * moved[rod[k]];
-      }
-      last = k;
+      at.push_back(k);
+    }
+    for (std::size_t k = 0, n = 0; k < rod.size() && !at.empty(); ++k) {
+      while (n + 1 < at.size() && at[n + 1] <= k) ++n;
+      const double from = double(at[n]), to = double(at[std::min(n + 1, at.size() - 1)]);
+      const double part = to > from ? std::clamp((double(k) - from) / (to - from), 0.0, 1.0) : 0;
+      moved[rod[k]] = (1 - part) * moved[rod[at[n]]] + part * moved[rod[std::size_t(to)]];
     }
   }
   return moved;
@@ -99,7 +98,7 @@ constexpr Palette light{{1, 1, 1, 1},
 constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
                        {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
                        {0.62f, 0.65f, 0.70f, 1},   {0.95f, 0.95f, 0.95f, 1}};
-constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
+constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, constraint_yellow{0.98f, 0.76f, 0.10f, 1},
     other_green{0.05f, 0.58f, 0.42f, 1};
 
 const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
@@ -119,10 +118,10 @@ void put_colours(const ShellView& shell, const Show& show, render::Drawing& draw
 void put_forces(const ShellView& shell, const Show& show, double thin_mm,
                 render::Drawing& drawing) {
   double most = 0;
-  for (const HeldJoint& held : shell.held) most = std::max(most, held.force_N.norm());
-  for (const HeldJoint& held : shell.held) {
-    const Eigen::Vector3d at = place_of(shell, show, held.joint);
-    drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), held_yellow});
+  for (const ConstrainedJoint& held : shell.held) most = std::max(most, held.force_N.norm());
+  for (const ConstrainedJoint& held : shell.held) {
+    const Eigen::Vector3d at = node_position(shell, show, held.joint);
+    drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), constraint_yellow});
     const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
     if (!(length > 3 * thin_mm)) continue;
     const Eigen::Vector3d arrow = length * held.force_N.normalized();
@@ -144,6 +143,12 @@ Eigen::Vector2d seen_px(const render::Camera& camera, const PictureSize& size,
 }
 
 }  // namespace
+
+bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::Joint>& b) {
+  return std::ranges::equal(a, b, [](const record::Joint& one, const record::Joint& other) {
+    return one.i == other.i && one.j == other.j;
+  });
+}
 
 std::string label_of(const ShellView& shell, const Show& show) {
   const ColourBy by = show.colour_by;
@@ -257,7 +262,7 @@ std::string text_of_measure(const ShellView& shell, const std::vector<int>& join
   return text;
 }
 
-Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node) {
+Eigen::Vector3d node_position(const ShellView& shell, const Show& show, int node) {
   Eigen::Vector3d place = shell.frame.nodes.col(node);
   if (show.mode_mm != 0 && node < shell.soft_mode.cols())
     place += show.mode_mm * shell.soft_mode.col(node);

@@ -82,6 +82,9 @@ struct Show {
   bool operator==(const Show&) const = default;
 };
 
+/// Whether two shells have joints of the same names in the same order.
+bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::Joint>& b);
+
 /// A text with the distance of two joints, straight and, if they have a common rod, along it; for
 /// three joints the angle at the second.
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
@@ -109,6 +112,6 @@ render::ColourScale next_scale(const render::ColourScale& before, const render::
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm);
 
 /// Position in which a node is drawn, mm.
-Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node);
+Eigen::Vector3d node_position(const ShellView& shell, const Show& show, int node);
 
 }  // namespace gridshell::window

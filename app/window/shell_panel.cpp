@@ -190,7 +190,7 @@ void held(const Panel& panel) {
   const ShellView& shell = *viewer.shell;
   heading(panel, "Push");
   panel.tick("push_freely");
-  for (const HeldJoint& one : shell.held) {
+  for (const ConstrainedJoint& one : shell.held) {
     const record::Joint& joint = shell.layout->joints[std::size_t(one.joint)];
     ImGui::Text("(%d, %d)  %.4f N  %.2f mm", joint.i, joint.j, one.force_N.norm(),
                 one.moved_mm.norm());
@@ -313,12 +313,12 @@ void keep(const Panel& panel) {
     panel.named("picture_pixels", "width and height, pixels; Enter takes them");
     ImGui::EndCombo();
   }
-  panel.named("picture_size", "size of a kept picture, pixels");
+  panel.named("picture_size", "size of a saved picture, pixels");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   choose_word("##quality", picture.quality);
   panel.named("picture_quality",
-              "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
+              "of a saved picture: draft has no shadow, figure has soft light and takes seconds");
 }
 
 }  // namespace

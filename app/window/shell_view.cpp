@@ -61,7 +61,7 @@ PlotPoint plot_point_of(const ShellView& shell) {
                 .stable = shell.stable(),
                 .coarse = !shell.refined && shell.meshes.size() < 2};
   if (!shell.held.empty()) {
-    const HeldJoint& held = shell.held.back();
+    const ConstrainedJoint& held = shell.held.back();
     now.joint = held.joint;
     now.depth_mm = held.moved_mm.norm();
     const double along = held.force_N.dot(held.moved_mm.normalized());
@@ -84,10 +84,12 @@ std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame fr
 std::string EditSession::accuracy_warning() const {
   if (!now_.refined || now_.scene->edges_per_segment != 0) return "";
   if (only_coarse_mesh_) return "on coarse meshes alone";
-  const double asked_mm = now_.scene->tolerance * now_.scene->length_scale_mm;
+  const double requested_mm = now_.scene->tolerance * now_.scene->length_scale_mm;
   const double error_mm = view_.certificate.error_estimate_mm;
   if (std::isnan(error_mm)) return "its error not known";
-  return error_mm <= asked_mm ? "" : fmt::format("error above the requested {:.2g} mm", asked_mm);
+  return error_mm <= requested_mm
+             ? ""
+             : fmt::format("error above the requested {:.2g} mm", requested_mm);
 }
 
 void EditSession::update_view() {
@@ -119,8 +121,8 @@ void EditSession::update_view() {
     const Eigen::Vector3d from =
         origins.contains(hold.node) ? origins.at(hold.node) : s.frame.nodes.col(hold.node);
     // displacements in free directions are not part of the depth
-    HeldJoint held{hold.node, hold.part(session_->force(k)),
-                   hold.part(s.frame.nodes.col(hold.node) - from)};
+    ConstrainedJoint held{hold.node, hold.part(session_->force(k)),
+                          hold.part(s.frame.nodes.col(hold.node) - from)};
     if (hold.directions.cols() == 1) held.along = hold.directions.col(0);
     // outwards, regardless of the direction of the push
     if (held.along.dot(s.normals.col(hold.node)) < 0) held.along *= -1;
@@ -128,7 +130,7 @@ void EditSession::update_view() {
   }
   update_symmetry();
   update_rods();
-  update_soft_mode();
+  update_lowest_mode();
   if (!s.first) s.first = now_.first = std::make_shared<const record::Frame>(s.frame);
   ++s.equilibria;
 }
@@ -207,7 +209,7 @@ void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
 
 /// Computes the lowest mode of an unstable state on the coarsest mesh, and interpolates it to the
 /// finest one, with a largest displacement of 1.
-void EditSession::update_soft_mode() {
+void EditSession::update_lowest_mode() {
   view_.soft_mode.resize(3, 0);
   if (view_.stable()) return;
   NestedShell& shell = session_->shell();

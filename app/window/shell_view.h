@@ -42,7 +42,7 @@ std::string text_of_events(const std::vector<Event>& events);
 std::string text_of_place(const PathMark& mark, const std::function<double(double)>& shown);
 
 /// A constrained joint.
-struct HeldJoint {
+struct ConstrainedJoint {
   int joint = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();   ///< its reaction
   Eigen::Vector3d moved_mm = Eigen::Vector3d::Zero();  ///< since its constraint was set
@@ -116,7 +116,7 @@ struct ShellView : ViewedState {
   double progress = 0;           ///< of the boundary; above 1: moved further than in the preset
   double least_progress = 0;     ///< the least one to which the boundary can be moved back
   std::string symmetry;          ///< "two diagonal mirrors"; empty during a drag
-  std::vector<HeldJoint> held;
+  std::vector<ConstrainedJoint> held;
   double radius_end_mm = 0;  ///< of a circular boundary at the end of its motion
   std::vector<DraggedEdge> edges_dragged;
   Eigen::Matrix3Xd normals;      ///< one per joint: t_u x t_v

@@ -44,7 +44,7 @@ void ViewerState::go_to_step(int step) {
   for (int k = now; k < std::clamp(step, 0, all); ++k) send_command(Redo{});
 }
 
-int ViewerState::state_in_sight() const {
+int ViewerState::current_state() const {
   if (!shell->found) return -1;
   const auto& all = *shell->found;
   const auto at = std::ranges::find_if(all, [&](const auto& one) {
@@ -59,7 +59,8 @@ int ViewerState::state_in_sight() const {
 
 void ViewerState::recall(int state) {
   if (!shell->found)
-    return say("one state alone of this shell was met yet: Jitter looks for more", true);
+    return say("only one state of this shell has been found so far: Jitter searches for others",
+               true);
   const int count = int(shell->found->size());
   send_command(Recall{(state % count + count) % count});
 }
@@ -112,7 +113,7 @@ double state_pictures(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
   if (panel.states.empty()) return box.width;
   const float high = float(box.height) - panel.px(6), wide = 1.6f * high, gap = panel.px(4);
-  const int count = int(panel.states.size()), now = viewer.state_in_sight();
+  const int count = int(panel.states.size()), now = viewer.current_state();
   // if not all have room, those next to the current one
   const int most = std::max(1, int(0.5f * float(box.width) / (wide + gap)));
   const int first = std::clamp(now - most / 2, 0, std::max(0, count - most));
@@ -185,7 +186,7 @@ std::string certificate_of(const ShellView& shell, bool timed, bool narrow) {
                      took);
 }
 
-std::string standing_of(const DesignProgress& course) {
+std::string design_progress(const DesignProgress& course) {
   const double percent = 100 / course.length_scale_mm;
   const DesignPoint& now = course.points.back();
   return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
@@ -193,9 +194,9 @@ std::string standing_of(const DesignProgress& course) {
 }
 
 /// Writes the progress of the movie over the last message.
-void movie_standing(const Panel& panel) {
-  const std::string said = panel.viewer.movie_task.standing();
-  const std::string line = "movie " + (said.empty() ? "0 %" : said);
+void draw_movie_progress(const Panel& panel) {
+  const std::string text = panel.viewer.movie_task.progress_text();
+  const std::string line = "movie " + (text.empty() ? "0 %" : text);
   const char* stop = find_action("stop_movie")->label;
   const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
                       3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
@@ -343,16 +344,16 @@ void status_line(const Panel& panel, const render::Box& box) {
     ImGui::SameLine(0, panel.px(18));
   }
   const double busy = viewer.engine.busy_seconds();
-  std::string said =
+  std::string text =
       busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
-  if (shell.designing()) said = standing_of(*shell.design);
+  if (shell.designing()) text = design_progress(*shell.design);
   const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
   // only the first line; the tooltip has the complete message
   coloured_text(bad ? colours.error : ImGui::GetColorU32(ImGuiCol_TextDisabled),
-                said.substr(0, said.find('\n')));
-  panel.named("message", said);
+                text.substr(0, text.find('\n')));
+  panel.named("message", text);
   const float room = float(box.right()) - ImGui::GetItemRectMin().x - panel.px(10);
-  if (viewer.movie_task.under_way()) movie_standing(panel);
+  if (viewer.movie_task.under_way()) draw_movie_progress(panel);
   ImGui::End();
   if (bad) notice(panel, box, room);
 }

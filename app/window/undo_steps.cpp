@@ -10,16 +10,16 @@
 
 namespace gridshell::window {
 
-std::optional<ScratchFile::Place> ScratchFile::put(std::string_view bytes) {
+std::optional<ScratchFile::Range> ScratchFile::put(std::string_view bytes) {
   if (!file_) file_.reset(std::tmpfile());
   if (!file_ || ::fseeko(file_.get(), end_, SEEK_SET) != 0 ||
       std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
       std::fflush(file_.get()) != 0)
     return std::nullopt;
-  return Place{std::exchange(end_, end_ + std::int64_t(bytes.size())), bytes.size()};
+  return Range{std::exchange(end_, end_ + std::int64_t(bytes.size())), bytes.size()};
 }
 
-std::string ScratchFile::take(const Place& place) const {
+std::string ScratchFile::take(const Range& place) const {
   std::string bytes(place.size, 0);
   const bool read = file_ && ::fseeko(file_.get(), place.at, SEEK_SET) == 0 &&
                     std::fread(bytes.data(), 1, place.size, file_.get()) == place.size;
@@ -53,13 +53,13 @@ bool EditSession::remember(const Command& command) {
   if (!session_ || (command.drag != 0 && command.drag == drag_)) return false;
   drag_ = command.drag;
   undo_.push_back({now_, session_->save(), is_any<Design>(command.edit)});
-  redo_aside_ = std::exchange(redo_, {});
-  keep_within_memory(undo_);
+  pending_redo_ = std::exchange(redo_, {});
+  limit_memory(undo_);
   return true;
 }
 
 /// Moves older steps into a file; if that has no room, discards them.
-void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
+void EditSession::limit_memory(std::deque<UndoStep>& steps) {
   clear_scratch();
   std::int64_t bytes = 0;
   std::size_t kept = 0;
@@ -77,7 +77,7 @@ void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
 void EditSession::clear_scratch() {
   const auto saved = [](const UndoStep& step) { return step.saved.has_value(); };
   if (std::ranges::none_of(undo_, saved) && std::ranges::none_of(redo_, saved) &&
-      std::ranges::none_of(redo_aside_, saved))
+      std::ranges::none_of(pending_redo_, saved))
     scratch_ = ScratchFile();
 }
 
@@ -93,10 +93,10 @@ bool EditSession::save_to_scratch(UndoStep& step) {
 bool EditSession::load_from_scratch(UndoStep& step) const {
   if (!step.saved) return true;
   const std::string bytes = scratch_.take(*step.saved);
-  step.saved.reset();
   ByteReader in(bytes);
   each_array(step.checkpoint, [&](auto& array) { in.matrix(array); });
-  return in.at_end();
+  if (in.at_end()) step.saved.reset();
+  return !step.saved;
 }
 
 Result<void> EditSession::restore(const UndoStep& step) {
@@ -111,11 +111,11 @@ Result<void> EditSession::restore(const UndoStep& step) {
   return {};
 }
 
-Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to,
-                                 const char* none) {
+Result<void> EditSession::swap_state(std::deque<UndoStep>& from, std::deque<UndoStep>& to,
+                                     const char* none) {
   if (from.empty()) return invalid(none);
   if (!load_from_scratch(from.back()))
-    return fail(Fault::io, "the state was put aside into a file that cannot be read");
+    return fail(Fault::io, "the file with the state of this step cannot be read");
   // the current state, to which the opposite command returns
   UndoStep before{now_, session_->save(), from.back().before_design};
   try {
@@ -126,19 +126,19 @@ Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep
   }
   from.pop_back();
   to.push_back(std::move(before));
-  keep_within_memory(to);
+  limit_memory(to);
   drag_ = 0;
   return {};
 }
 
 Result<void> EditSession::act(const Undo& command, const Watch&) {
-  auto back = travel(undo_, redo_, "there is nothing to undo");
-  while (command.all && back && !undo_.empty()) back = travel(undo_, redo_, "");
+  auto back = swap_state(undo_, redo_, "there is nothing to undo");
+  while (command.all && back && !undo_.empty()) back = swap_state(undo_, redo_, "");
   return back;
 }
 
 Result<void> EditSession::act(const Redo&, const Watch&) {
-  return travel(redo_, undo_, "there is nothing to do again");
+  return swap_state(redo_, undo_, "there is nothing to do again");
 }
 
 std::string error_text(const std::exception& thrown) {
@@ -155,7 +155,7 @@ void EditSession::recover(const Command& command, const std::exception& thrown) 
       take_back_step();
       view_.error = back ? why : why + "; " + back.error().message;
     } else {
-      if (redo_.empty()) redo_.swap(redo_aside_);
+      if (redo_.empty()) redo_.swap(pending_redo_);
       view_.error = why;
     }
     update_view();
@@ -168,7 +168,7 @@ void EditSession::recover(const Command& command, const std::exception& thrown) 
 /// Discards the step that was stored before the current command; Redo is possible again.
 void EditSession::take_back_step() {
   undo_.pop_back();
-  redo_ = std::exchange(redo_aside_, {});
+  redo_ = std::exchange(pending_redo_, {});
   drag_ = 0;
 }
 

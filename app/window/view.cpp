@@ -151,7 +151,7 @@ Library library_of(const ViewOptions& options) {
                                                      const fs::path& file) -> Result<void> {
     TRY(maker, PictureMaker::create(context));
     TRY(image, picture_of(order, maker->renderer()));
-    return render::write_png(*image, file, order.kept.dpi);
+    return render::write_png(*image, file, order.format.dpi);
   };
   library.draw_still = [context =
                             options.context](const PictureRequest& shown) -> Result<render::Image> {
@@ -220,7 +220,7 @@ Result<void> draw_alone(const ViewOptions& options, ViewerState& viewer) {
   return viewer.library.draw_picture(viewer.picture_request(), options.picture);
 }
 
-Result<int> play_aside(const ViewOptions& options, ViewerState& viewer) {
+Result<int> play_offscreen(const ViewOptions& options, ViewerState& viewer) {
   std::vector<InputEvent> events;
   // the picture of a preset shows the end of its path or push
   if (!options.picture.empty() && options.play.empty())
@@ -263,10 +263,10 @@ void restore(const ViewOptions& options, ViewerState& viewer) {
 }
 
 /// Saves the workspace.
-void keep(const ViewOptions& options, const ViewerState& viewer) {
+void save_workspace(const ViewOptions& options, const ViewerState& viewer) {
   if (options.workspace.empty() || !viewer.shell->any()) return;
-  const auto kept = write_with_folder(options.workspace, workspace_text(viewer));
-  if (!kept) fmt::print(stderr, "the workspace is not kept: {}\n", kept.error().message);
+  const auto saved = write_with_folder(options.workspace, workspace_text(viewer));
+  if (!saved) fmt::print(stderr, "the workspace is not saved: {}\n", saved.error().message);
 }
 
 Result<int> show(const ViewOptions& options, ViewerState& viewer) {
@@ -308,8 +308,8 @@ Result<int> view(ViewOptions options) {
     TRY_DO(first_preset_of(options.input));
     viewer.open(options.input);
   }
-  auto code = off_screen ? play_aside(options, viewer) : show(options, viewer);
-  keep(options, viewer);
+  auto code = off_screen ? play_offscreen(options, viewer) : show(options, viewer);
+  save_workspace(options, viewer);
   return code;
 }
 

@@ -13,7 +13,7 @@ namespace gridshell::window {
 
 Eigen::Vector2d in_view(const ViewerState& viewer, const render::Box& view, int node) {
   return render::to_pixel(viewer.camera, int(view.width), int(view.height),
-                          place_of(*viewer.shell, viewer.show, node)) +
+                          node_position(*viewer.shell, viewer.show, node)) +
          Eigen::Vector2d(view.x, view.y);
 }
 
@@ -36,7 +36,7 @@ class Overlay {
   void mark_under();
   void write_forces();
   void write_measure();
-  void tell_other();
+  void write_other();
   void draw_scale();
   void draw_axes();
 
@@ -110,7 +110,7 @@ void Overlay::label(const std::string& text, ImVec2 at) {
 
 /// Force and displacement next to each constrained joint.
 void Overlay::write_forces() {
-  for (const HeldJoint& held : shell_.held)
+  for (const ConstrainedJoint& held : shell_.held)
     label(fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm()),
           point_of(held.joint));
 }
@@ -131,7 +131,7 @@ void Overlay::write_measure() {
 }
 
 /// Writes the name of the other shell (green, or at the right), and the distances of joints.
-void Overlay::tell_other() {
+void Overlay::write_other() {
   if (!viewer_.show.other) return;
   const bool beside = viewer_.show.shells() > 1;
   const std::string text =
@@ -220,22 +220,22 @@ void Overlay::draw_axes() {
 }
 
 /// Right-aligned texts over a pale background, which is drawn last in the size of all of them.
-class Ground {
+class TextBackground {
  public:
-  Ground(const Panel& panel, ImDrawList& list, ImVec2 corner)
+  TextBackground(const Panel& panel, ImDrawList& list, ImVec2 corner)
       : list_(list), low_(corner), high_(corner), margin_(panel.px(6)) {
     list_.ChannelsSplit(2);
     list_.ChannelsSetCurrent(1);
   }
-  ~Ground() {
+  ~TextBackground() {
     list_.ChannelsSetCurrent(0);
     list_.AddRectFilled({low_.x - margin_, low_.y - margin_},
                         {high_.x + margin_, high_.y + margin_},
                         ImGui::GetColorU32(ImGuiCol_WindowBg, 0.75f), margin_);
     list_.ChannelsMerge();
   }
-  Ground(const Ground&) = delete;
-  Ground& operator=(const Ground&) = delete;
+  TextBackground(const TextBackground&) = delete;
+  TextBackground& operator=(const TextBackground&) = delete;
 
   void text(const std::string& words, float right, float top) {
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
@@ -275,7 +275,7 @@ void view_overlay(const Panel& panel, const render::Box& view) {
   overlay.mark_under();
   overlay.write_forces();
   overlay.write_measure();
-  overlay.tell_other();
+  overlay.write_other();
   overlay.draw_scale();
   overlay.draw_axes();
 }
@@ -312,32 +312,33 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   // in a low view the bar is shorter, so that the texts below it have room
   const float height = std::min(panel.px(170), std::max(2 * line, float(view.height) - 8 * line));
   const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
-  Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
-  ground.text(label_of(*viewer.shell, viewer.show), right, top);
+  TextBackground background(panel, *ImGui::GetWindowDrawList(), {right, top});
+  background.text(label_of(*viewer.shell, viewer.show), right, top);
   const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show);
-  if (values.size() == 0) return ground.text("not known for this shell", right, top + 1.3f * line);
+  if (values.size() == 0)
+    return background.text("not known for this shell", right, top + 1.3f * line);
   const render::ColourScale& scale = viewer.show.scale;
   const float low = top + 1.6f * line, left = right - width;
   bar(scale, {left, low}, {right, low + height});
-  ground.reach(low + height);
+  background.reach(low + height);
   const float apart = 1.2f * line / height;  // least distance of two texts, over that of the bar
   for (const render::Tick& tick : render::linear_ticks(scale.low, scale.high, 4)) {
     const auto down = float((scale.high - tick.value) / (scale.high - scale.low));
     if (tick.major && down > apart && down < 1 - apart)
-      ground.text(fmt::format("{:.6g}", tick.value), left - panel.px(5),
-                  low + height * down - 0.5f * line);
+      background.text(fmt::format("{:.6g}", tick.value), left - panel.px(5),
+                      low + height * down - 0.5f * line);
   }
-  ground.widen(left - panel.px(5) - range_end(panel, "range_high", left, low - 0.5f * line));
+  background.widen(left - panel.px(5) - range_end(panel, "range_high", left, low - 0.5f * line));
   range_end(panel, "range_low", left, low + height - 0.5f * line);
   // the end colours also show all values outside the range
   const double slack = 1e-9 * (scale.high - scale.low);
   float note = low + height + 0.8f * line;
   if (values.maxCoeff() > scale.high + slack) {
-    ground.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
+    background.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
     note += 1.2f * line;
   }
   if (values.minCoeff() < scale.low - slack) {
-    ground.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
+    background.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
     note += 1.2f * line;
   }
   const bool fixed = viewer.range_of == RangeOf::hand;
@@ -347,7 +348,7 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   if (ImGui::SmallButton(word)) find_action(fixed ? "range_run" : "range_hand")->act(viewer);
   panel.named("range_fixed", fixed ? "lets the range widen with what is seen again"
                                    : "keeps the colours' range as it is now");
-  ground.reach(note + line);
+  background.reach(note + line);
 }
 
 }  // namespace gridshell::window

@@ -120,11 +120,15 @@ void ViewerState::form(preset::Preset preset) {
   fresh_ = true;
   plot_points.clear();
   timeline.clear();
-  picked_joint = picked_cell = -1;
-  picked_rod = {};
-  measured.clear();
+  clear_picked();
   say("forming '" + preset.title + "'");
   send_command(Open{std::move(preset)});
+}
+
+void ViewerState::clear_picked() {
+  picked_joint = picked_cell = joint_under = edge_under = -1;
+  picked_rod = {};
+  measured.clear();
 }
 
 void ViewerState::go(double part, bool passing) {
@@ -247,6 +251,9 @@ bool ViewerState::tick(double seconds) {
 
 void ViewerState::take(std::shared_ptr<const ShellView> next) {
   const bool newer = next->equilibria != shell->equilibria;
+  // indices of joints, rods and cells are those of one footprint
+  if (shell->any() && next->any() && !same_joints(shell->layout->joints, next->layout->joints))
+    clear_picked();
   shell = std::move(next);
   if (!shell->error.empty())
     say(shell->error, true);

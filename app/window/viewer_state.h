@@ -40,7 +40,7 @@ struct PictureRequest {
   render::Camera camera;
   PictureSize view;  ///< size of the picture that the camera sees
   Show show;
-  PictureFormat kept;
+  PictureFormat format;
 };
 
 /// A point of the timeline: the state after a step, and the events of the step.
@@ -229,7 +229,7 @@ class ViewerState {
   /// Restores one of the states that were found; the last one is followed by the first.
   void recall(int state);
   /// The index of the found state that is shown; -1: none is.
-  int state_in_sight() const;
+  int current_state() const;
   /// Moves the boundary to the middle of the next unstable interval on its path.
   void go_to_loss();
   /// Stops the engine; the last step of a design remains.
@@ -263,7 +263,7 @@ class ViewerState {
   void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
   /// Shows the other state next to the shell instead of over it.
-  void set_beside(bool on);
+  void show_side_by_side(bool on);
   /// The distances of the joints from those with the same indices in the other shell: "largest
   /// distance 3.2 mm at joint (0, 1), mean 1.1 mm".
   std::string difference_text() const;
@@ -288,6 +288,7 @@ class ViewerState {
 
  private:
   void form(preset::Preset preset);
+  void clear_picked();
   void take(std::shared_ptr<const ShellView> next);
   void reset_view();
   void add_plot_point();

@@ -12,11 +12,11 @@ void BackgroundTask::begin(Work work, const std::filesystem::path& target) {
   wait();
   watch_.emplace();
   target_ = target;
-  said_.clear();
+  line_.clear();
   ended_ = std::async(std::launch::async, [this, work = std::move(work)] {
     const auto listener = [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
-      said_ = line;
+      line_ = line;
     };
     return work(listener, *watch_);
   });
@@ -30,14 +30,14 @@ bool BackgroundTask::under_way() const {
   return ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
-std::string BackgroundTask::standing() const {
+std::string BackgroundTask::progress_text() const {
   const std::lock_guard lock(mutex_);
-  return said_;
+  return line_;
 }
 
 std::optional<BackgroundTask::End> BackgroundTask::take_end() {
   if (idle() || under_way()) return std::nullopt;
-  return End{target_, ended_.get(), standing()};
+  return End{target_, ended_.get(), progress_text()};
 }
 
 EngineThread::EngineThread() : shell_(std::make_shared<ShellView>()) {
@@ -81,7 +81,7 @@ void EngineThread::cancel() {
   commands_.clear();
   unrefined_ = false;
   if (watch_) watch_->cancel();
-  if (!working_) rested_.notify_all();
+  if (!working_) became_idle_.notify_all();
 }
 
 std::shared_ptr<const ShellView> EngineThread::shell() const {
@@ -101,7 +101,7 @@ double EngineThread::busy_seconds() const {
 
 void EngineThread::wait() {
   std::unique_lock lock(mutex_);
-  rested_.wait(lock, [this] { return commands_.empty() && !working_ && !unrefined_; });
+  became_idle_.wait(lock, [this] { return commands_.empty() && !working_ && !unrefined_; });
 }
 
 /// The view of the shell after `act`; null, so that the last view remains, if memory runs out.
@@ -145,7 +145,7 @@ void EngineThread::work() {
     }
     working_ = false;
     watch_.reset();
-    if (commands_.empty() && !unrefined_) rested_.notify_all();
+    if (commands_.empty() && !unrefined_) became_idle_.notify_all();
   }
 }
 

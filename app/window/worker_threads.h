@@ -47,7 +47,7 @@ class BackgroundTask {
   /// Whether none is running and the end of the last one was taken.
   bool idle() const { return !ended_.valid(); }
   /// The last line of progress.
-  std::string standing() const;
+  std::string progress_text() const;
   /// The end of the last task, once; nothing while it runs or after it was taken.
   std::optional<End> take_end();
   /// Waits until none is running.
@@ -56,10 +56,10 @@ class BackgroundTask {
   }
 
  private:
-  mutable std::mutex mutex_;    // guards said_
+  mutable std::mutex mutex_;    // guards line_
   std::optional<Watch> watch_;  // of the current task or the last one
   std::filesystem::path target_;
-  std::string said_;
+  std::string line_;
   // last, so that its destructor, which waits for the task, runs first
   std::future<Result<void>> ended_;
 };
@@ -93,7 +93,7 @@ class EngineThread {
   std::shared_ptr<const ShellView> view_after(const Act& act);
 
   mutable std::mutex mutex_;
-  std::condition_variable wake_, rested_;
+  std::condition_variable wake_, became_idle_;
   std::deque<Command> commands_;
   std::shared_ptr<Watch> watch_;  // of the current command
   std::shared_ptr<const ShellView> shell_;

@@ -35,7 +35,7 @@ TEST_CASE("work in the background reports how far it is, and how it ended, once"
   work.wait();
   CHECK_FALSE(work.under_way());
   CHECK_FALSE(work.idle());
-  CHECK(work.standing() == "50 %  drawing");
+  CHECK(work.progress_text() == "50 %  drawing");
   const auto end = value_of(work.take_end());
   CHECK(end.made);
   CHECK(end.target == "out/shell.png");

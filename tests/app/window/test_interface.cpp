@@ -79,3 +79,10 @@ TEST_CASE("a material that is chosen gives its values to the rods") {
   CHECK_THAT(text, Contains("material = \"gfrp\""));
   CHECK_THAT(text, Contains("young_GPa = 25.0"));
 }
+
+TEST_CASE("a window without room for the shell saves a picture, as small as pictures are") {
+  const TemporaryFolder folder;
+  const json after = played(folder, "size 320 240 4\ndo save_picture\n", {"-o", "kept"});
+  INFO(message_of(after));
+  CHECK(fs::exists(folder / "kept/small_1.png"));
+}

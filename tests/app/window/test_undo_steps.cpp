@@ -1,5 +1,10 @@
 // Undo and redo after a command that was refused, or that threw an exception.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <filesystem>
 #include <new>
+#include <string>
 
 #include "tests/app/window/edited_shell.h"
 #include "tests/results.h"
@@ -51,4 +56,42 @@ TEST_CASE("an exception on the path is an error, and the shell is as before the 
   shell.session.execute({Push{joint, from - 6 * normal, normal}, 2, true}, unwatched);
   CHECK(shell.view().error.empty());
   CHECK(shell.view().steps.size() == 1);
+}
+
+namespace {
+
+/// Empties the file without a name that this process opened last, and returns its contents.
+std::pair<int, std::string> emptied_scratch_file() {
+  int file = -1;
+  for (const auto& open : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code error;
+    const auto target = std::filesystem::read_symlink(open.path(), error).string();
+    if (target.ends_with(" (deleted)")) file = std::max(file, std::stoi(open.path().filename()));
+  }
+  REQUIRE(file >= 0);
+  std::string bytes(std::size_t(::lseek(file, 0, SEEK_END)), 0);
+  REQUIRE(::pread(file, bytes.data(), bytes.size(), 0) == ssize_t(bytes.size()));
+  REQUIRE(::ftruncate(file, 0) == 0);
+  return {file, bytes};
+}
+
+}  // namespace
+
+TEST_CASE("a step whose file cannot be read is not undone, and is once it can be") {
+  // with 0 bytes only the latest state is in memory
+  EditedShell shell(small_shell(), 0);
+  shell.act(Move{0.9});
+  const ShellView moved = shell.view();
+  shell.act(Move{0.8});
+  shell.act(Move{0.7});
+  shell.act(Undo{});
+  const ShellView before = shell.view();
+  const auto [file, bytes] = emptied_scratch_file();
+  for (int k = 0; k < 2; ++k) {
+    CHECK_THAT(shell.attempt(Undo{}), Catch::Contains("cannot be read"));
+    CHECK(difference(shell, before) == 0);
+  }
+  REQUIRE(::pwrite(file, bytes.data(), bytes.size(), 0) == ssize_t(bytes.size()));
+  shell.act(Undo{});
+  CHECK(difference(shell, moved) == 0);
 }

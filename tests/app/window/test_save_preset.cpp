@@ -1,0 +1,53 @@
+// Presets that are saved: the camera as keys, and remarks on what a run may not reach.
+#include <limits>
+
+#include "app/window/viewer_state.h"
+#include "engine/core/file_io.h"
+#include "tests/app/window/edited_shell.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::window;
+namespace fs = std::filesystem;
+
+TEST_CASE("a preset is valid however far the camera is away or near, and its angles are short") {
+  ViewerState viewer({});
+  viewer.view = {800, 600};
+  viewer.shell = std::make_shared<const ShellView>(EditedShell().view());
+  viewer.fit_view();
+  const double fits = viewer.camera.half_extent_mm;
+  for (const double times : {1e-4, 1e-3, 1e3, 1e4}) {
+    viewer.camera.half_extent_mm = times * fits;
+    const preset::Preset saved = viewer.preset_to_save();
+    CAPTURE(times, saved.movie.zoom);
+    CHECK(check_preset(saved));
+  }
+  viewer.camera.azimuth_deg = -52.4;
+  const std::string text = preset::to_toml(viewer.preset_to_save());
+  CHECK_THAT(text, Catch::Contains("azimuth_deg = -52.4 "));
+}
+
+TEST_CASE("the prompt of a preset that is saved closes, also with a remark") {
+  const TemporaryFolder folder;
+  Library library;
+  library.save_to = folder.path();
+  library.write_preset = [](const preset::Preset& preset, const fs::path& file) {
+    return write_file(file, preset::to_toml(preset));
+  };
+  ViewerState viewer(std::move(library));
+  viewer.view = {800, 600};
+  EditedShell edited;
+  edited.act(Move{0.9});
+  preset::Preset stiffer = edited.view().preset;
+  stiffer.rod.young_GPa *= 2;
+  edited.act(Change{stiffer});
+  viewer.shell = std::make_shared<const ShellView>(edited.view());
+  viewer.ask_file(FileUse::save_preset);
+  REQUIRE(viewer.file_request);
+  viewer.file_request->path = (folder / "mine.toml").string();
+  viewer.take_file();
+  CHECK(fs::exists(folder / "mine.toml"));
+  CHECK_FALSE(viewer.file_request);
+  CHECK_FALSE(viewer.message_bad);
+  CHECK_THAT(viewer.message, Catch::Contains("mine.toml; numbers that were changed later"));
+}
