@@ -100,23 +100,19 @@ using SizeOf = Eigen::Index (*)(const Layout&);
 template <class Visit>
 void each_rod_field(const Visit& visit) {
   visit("/axial_force_N", "N", edges_of_rods,
-        "of each edge, rod after rod; on the finest mesh, not extrapolated", &Frame::axial_force_N);
+        "of each edge, rod after rod; of the finest mesh itself", &Frame::axial_force_N);
   visit("/curvature_per_mm", "1/mm", points_of_rods,
-        "at each point, rod after rod; on the finest mesh, not extrapolated",
-        &Frame::curvature_per_mm);
+        "at each point, rod after rod; of the finest mesh itself", &Frame::curvature_per_mm);
   visit("/bending_mJ_per_m", "mJ/m", points_of_rods,
-        "energy over length, at each point; on the finest mesh, not extrapolated",
-        &Frame::bending_mJ_per_m);
+        "energy over length, at each point; of the finest mesh itself", &Frame::bending_mJ_per_m);
   visit("/stress_MPa", "MPa", points_of_rods,
-        "of a fibre, the largest at each point; on the finest mesh, not extrapolated",
-        &Frame::stress_MPa);
+        "of a fibre, the largest at each point; of the finest mesh itself", &Frame::stress_MPa);
   const SizeOf supports = [](const Layout& layout) { return Eigen::Index(layout.supports.size()); };
   visit("/reactions_N", "N", supports,
         "on each of /layout/supports; with the loads they balance to residual_N; off by "
         "/frames/force_error_N at most",
         &Frame::reactions_N);
-  visit("/loads_N", "N", supports, "loads that act directly on each of /layout/supports",
-        &Frame::loads_N);
+  visit("/loads_N", "N", supports, "handed on to each of /layout/supports", &Frame::loads_N);
   const SizeOf diagonals = [](const Layout& layout) {
     return 2 * Eigen::Index(layout.cells.size());
   };
