@@ -122,9 +122,10 @@ Result<bool> compare_folders(const CompareOptions& options) {
   }
   fmt::print("{} of {} pictures differ, threshold {}\n", different.size(), pairs->size(),
              options.threshold);
-  if (!options.difference.empty() && !different.empty())
-    TRY_DO(
-        render::write_png(render::contact_sheet(different, options.threshold), options.difference));
+  if (!options.difference.empty() && !different.empty()) {
+    TRY(sheet, render::contact_sheet(different, options.threshold));
+    TRY_DO(render::write_png(*sheet, options.difference));
+  }
   if (!options.update) return different.empty();
   TRY_DO(update_baselines(options.a, *pairs, options.threshold, options.why));
   return true;
