@@ -128,8 +128,10 @@ Result<bool> compare_folders(const CompareOptions& options) {
   }
   fmt::print("{} of {} pictures differ, threshold {}\n", different.size(), pairs->size(),
              options.threshold);
-  if (!options.difference.empty() && !different.empty())
-    TRY_DO(write_difference(render::contact_sheet(different, options.threshold), options));
+  if (!options.difference.empty() && !different.empty()) {
+    TRY(sheet, render::contact_sheet(different, options.threshold));
+    TRY_DO(write_difference(*sheet, options));
+  }
   if (!options.update) return different.empty();
   TRY_DO(update_baselines(options.a, *pairs, options.threshold, options.why));
   return true;

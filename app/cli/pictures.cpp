@@ -164,7 +164,10 @@ Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
   const fs::path pictures = folder / "frames";
   style.frames = frames;
   TRY_DO(make_folder(pictures));
-  if (style.title_s > 0) TRY_DO(render::write_png(render::title_card(style), folder / "title.png"));
+  if (style.title_s > 0) {
+    TRY(card, render::title_card(style));
+    TRY_DO(render::write_png(*card, folder / "title.png"));
+  }
   TRY(movie, render::MovieEncoder::begin(pictures, style, folder / "movie.mp4"));
   TRY_DO(draw([&](int, const render::Image& picture) {
     if (*movie) (*movie)->put(picture, watch);

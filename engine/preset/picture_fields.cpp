@@ -152,6 +152,15 @@ std::string radii_error(const Preset& preset) {
   return "";
 }
 
+/// The error of a [figure] width_mm that has too many pixels; empty: there is none.
+std::string width_error(const Preset& preset) {
+  constexpr double most_pixels = 32767;  // of a side of a picture
+  const double pixels = preset.figure.width_mm / 25.4 * preset.figure.dpi;
+  if (pixels <= most_pixels) return "";
+  return fmt::format("{} at {} dpi are {:.0f} pixels, expected at most {:.0f}",
+                     preset.figure.width_mm, preset.figure.dpi, pixels, most_pixels);
+}
+
 void add_figure(FieldList<Figure> list) {
   list.add<&Figure::radii_mm>(
           above(0),
@@ -169,7 +178,8 @@ void add_figure(FieldList<Figure> list) {
   list.add<&Figure::title>("whether stills, figures and plots have their title above them");
   list.add<&Figure::quality>("quality of stills, as [movie] quality");
   list.add<&Figure::width_mm>(
-      at_least(0), "width of a complete figure as printed; 0: the pixels of [movie] size");
+          at_least(0), "width of a complete figure as printed; 0: the pixels of [movie] size")
+      .refused({"[figure] dpi"}, width_error);
   list.add<&Figure::dpi>(between(30, 2400), "pixels per inch, if a width is given").unit("1/inch");
   list.add<&Figure::cut_step_mm>(
       between(0, 10), "lengths and marks of exported cut lists are multiples of it; 0: all digits");

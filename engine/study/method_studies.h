@@ -69,6 +69,9 @@ inline constexpr const char* default_solver = "default";
 struct Cell {
   record::StabilityRow row;
   std::function<record::RunOutcome(const Watch&)> run;
+  /// Makes what several cells share, once, before the first of them runs; empty: nothing. Without
+  /// it their outcome is `refused`.
+  std::function<void(Watch&)> prepare = {};
 };
 
 /// The cells of a map: one variable along the columns, one along the rows, for several methods,

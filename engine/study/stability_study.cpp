@@ -20,6 +20,8 @@ class Map {
  public:
   using Try = std::function<RunOutcome(double x, double y, const Watch&)>;
 
+  std::function<void(Watch&)> prepare = {};  ///< of all its cells
+
   Map(const char* name, const char* x_name, Axis x, const char* y_name, Axis y)
       : row_{name, "", x_name, 0, y_name, 0, {}}, x_(std::move(x)), y_(std::move(y)) {}
 
@@ -30,7 +32,7 @@ class Map {
       for (const double x : x_)
         for (const auto& [method, run] : methods_) {
           Cell& cell = all.emplace_back(
-              Cell{row_, [=, run = run](const Watch& watch) { return run(x, y, watch); }});
+              Cell{row_, [=, run = run](const Watch& watch) { return run(x, y, watch); }, prepare});
           cell.row.method = method;
           cell.row.x = x;
           cell.row.y = y;
@@ -73,40 +75,35 @@ RunOutcome default_outcome(const SharedProblem& study, const FollowOptions& opti
 constexpr Globalisation globalisations[] = {Globalisation::none, Globalisation::line_search,
                                             Globalisation::shifted};
 
-using MakeProblem = std::function<Result<std::unique_ptr<BenchmarkProblem>>()>;
+using MakeProblem = std::function<Result<std::unique_ptr<BenchmarkProblem>>(Watch&)>;
 
-/// A problem that is made when a cell first needs it; null if it has no reference.
-class Lazy {
- public:
-  explicit Lazy(MakeProblem make) : make_(std::move(make)) {}
-  SharedProblem get() {
-    std::call_once(once_, [&] {
-      if (auto made = make_()) made_ = std::move(*made);
-    });
-    return made_;
-  }
-
- private:
-  std::once_flag once_;
-  MakeProblem make_;
-  SharedProblem made_;
+/// What cells share, made by the first of them that is prepared.
+template <class T>
+struct Shared {
+  std::once_flag once;
+  T value = {};
 };
 
 /// Adds the cells of one x, which has a problem of its own, over load steps: Newton's method with
 /// full steps and shifted, and the default solver.
 void add_load_steps(const char* map_name, const char* x_name, double x, const Axis& load_steps,
                     int edges, MakeProblem make, Cells& cells) {
-  const auto lazy = std::make_shared<Lazy>(std::move(make));
+  const auto shared = std::make_shared<Shared<SharedProblem>>();
   Map map(map_name, x_name, {x}, "load_steps", load_steps);
+  map.prepare = [=](Watch& watch) {
+    std::call_once(shared->once, [&] {
+      if (auto made = make(watch)) shared->value = std::move(*made);
+    });
+  };
   // without a reference the outcome is `refused`: the default solver reports why
   for (const Globalisation how : {Globalisation::none, Globalisation::shifted})
     map.add(word_of(how), [=](double, double steps, const Watch& watch) {
-      const SharedProblem study = lazy->get();
+      const SharedProblem& study = shared->value;
       if (!study) return RunOutcome::refused;
       return newton_outcome(study, edges, {int(steps), how}, claimed_error, watch);
     });
   map.add(default_solver, [=](double, double steps, const Watch& watch) {
-    const SharedProblem study = lazy->get();
+    const SharedProblem& study = shared->value;
     if (!study) return RunOutcome::refused;
     return default_outcome(study, {plan_levels(1e-3), 1e-3, true, int(steps)}, watch);
   });
@@ -165,9 +162,8 @@ Cells stiffness_map(const preset::Preset& preset, const Axis& scales, const Axis
                     int edges) {
   Cells cells;
   for (const double scale : scales) {
-    const auto make = [=] {
-      Watch own;
-      return BenchmarkProblem::create(preset, 16, own, scale);
+    const auto make = [=](Watch& watch) {
+      return BenchmarkProblem::create(preset, 16, watch, scale);
     };
     add_load_steps("EA", "EA over the rods'", scale, load_steps, edges, make, cells);
   }
@@ -188,10 +184,7 @@ Cells leg_map(const preset::Preset& preset, const Axis& legs, const Axis& load_s
     const double last = first + std::max(0.0, std::floor(reach - first));
     const double radius = d * std::hypot(outermost, last + leg);
     cut.set_radii(radius, preset.actuated_radius_mm() * radius / original);
-    const auto make = [=] {
-      Watch own;
-      return BenchmarkProblem::create(cut, 16, own);
-    };
+    const auto make = [=](Watch& watch) { return BenchmarkProblem::create(cut, 16, watch); };
     add_load_steps("shortest leg", "leg over d", leg, load_steps, edges, make, cells);
   }
   return cells;
@@ -222,25 +215,27 @@ Cells seed_map(const SharedProblem& study, const Axis& heights, const Axis& edge
 
 Cells joint_map(const SharedProblem& study, const Axis& stiffnesses, const Axis& load_steps,
                 int edges) {
-  struct Truth {
-    std::once_flag once;
-    MethodResult result;
-  };
   Cells cells;
   for (const double stiffness : stiffnesses) {
-    const auto truth = std::make_shared<Truth>();
+    const auto truth = std::make_shared<Shared<MethodResult>>();
+    const ModelVariant springs{RodModel::twist, stiffness};
     Map map("joint stiffness", "stiffness_N_per_mm", {stiffness}, "load_steps", load_steps);
+    map.prepare = [=](Watch& watch) {
+      std::call_once(truth->once, [&] {
+        if (const auto problem = study->problem(edges, watch))
+          truth->value = march(study->on_model(**problem, springs), {60}, watch);
+      });
+    };
     for (const Globalisation how : {Globalisation::none, Globalisation::shifted})
       map.add(word_of(how), [=](double, double steps, const Watch& watch) {
         const auto problem = study->problem(edges, unwatched);
         if (!problem) return RunOutcome::refused;
-        const Problem joined = study->on_model(**problem, {RodModel::twist, stiffness});
-        std::call_once(truth->once, [&] { truth->result = march(joined, {60}, unwatched); });
+        const Problem joined = study->on_model(**problem, springs);
         const MethodResult found = march(joined, {int(steps), how}, watch);
         if (found.claim != RunOutcome::right) return found.claim;
-        if (truth->result.claim != RunOutcome::right) return RunOutcome::refused;
+        if (truth->value.claim != RunOutcome::right) return RunOutcome::refused;
         const double off = max_column_norm(found.x.leftCols(study->joints()) -
-                                           truth->result.x.leftCols(study->joints()));
+                                           truth->value.x.leftCols(study->joints()));
         if (off <= 10 * claimed_error * study->scale_mm()) return RunOutcome::right;
         return found.negative_pivots > 0 ? RunOutcome::silent_wrong : RunOutcome::other_state;
       });
@@ -250,8 +245,13 @@ Cells joint_map(const SharedProblem& study, const Axis& stiffnesses, const Axis&
 }
 
 Result<void> run_cells(Cells& cells, const StabilityOptions& options, Watch& watch) {
+  constexpr double shared_by = 30;  // times the seconds of a run, for what cells share
   const auto run = [&](int k) {
     Cell& cell = cells[std::size_t(k)];
+    if (cell.prepare) {
+      TimeLimit limit(shared_by * options.seconds, watch);
+      cell.prepare(limit.watch());
+    }
     const TimeLimit limit(options.seconds, watch);
     cell.row.outcome = cell.run(limit.watch());
   };

@@ -12,6 +12,7 @@
 
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
+#include "engine/core/try.h"
 #include "render/canvas/colour_map.h"
 #include "render/canvas/short_svg.h"
 #include "render/canvas/text.h"
@@ -143,8 +144,23 @@ void Canvas::marker(Marker kind, Point p, double size, Colour fill, const Stroke
   }
 }
 
+namespace {
+
+/// Every `n`-th pixel of every `n`-th row.
+Image thinned(const Image& image, int n) {
+  Image some((image.width + n - 1) / n, (image.height + n - 1) / n);
+  for (int y = 0; y < some.height; ++y)
+    for (int x = 0; x < some.width; ++x)
+      std::copy_n(image.pixel(n * x, n * y), 4, some.pixel(x, y));
+  return some;
+}
+
+}  // namespace
+
 void Canvas::picture(const Image& image, const Box& box) {
   if (image.width < 1 || image.height < 1) return;
+  if (const int side = std::max(image.width, image.height); side > largest_side)
+    return picture(thinned(image, (side + largest_side - 1) / largest_side), box);
   cairo_surface_t* surface =
       cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height);
   unsigned char* data = cairo_image_surface_get_data(surface);
@@ -256,11 +272,17 @@ void draw_over(Image& image, const DrawOn& draw) {
   unpremultiply(pixels.data(), image.rgba.data(), count);
 }
 
-Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
-                   const DrawOn& draw) {
-  Image image(std::max(1, int(std::lround(width * pixels_per_unit))),
-              std::max(1, int(std::lround(height * pixels_per_unit))));
+Result<Image> draw_picture(double width, double height, double pixels_per_unit, Colour background,
+                           const DrawOn& draw) {
+  const double across = std::max(1.0, std::round(width * pixels_per_unit)),
+               down = std::max(1.0, std::round(height * pixels_per_unit));
+  if (!(std::max(across, down) <= largest_side))
+    return invalid("size of the picture: got {:.0f} x {:.0f} pixels, expected 1 to {} each", across,
+                   down, largest_side);
+  Image image{int(across), int(down)};
   Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height));
+  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
+    return fail(Fault::io, "cannot draw {} x {} pixels: out of memory", image.width, image.height);
   Cairo cairo(cairo_create(surface.get()));
   cairo_set_source_rgba(cairo.get(), background.r, background.g, background.b, background.a);
   cairo_paint(cairo.get());
@@ -293,7 +315,7 @@ std::string draw_svg(double width, double height, const std::string& title, cons
   }
   const std::size_t root = svg.find("<svg"), end = svg.find('>', root);
   if (root != std::string::npos && end != std::string::npos)
-    svg.insert(end + 1, "\n<title>" + escape_xml(title) + "</title>\n<desc>" +
+    svg.insert(end + 1, "\n<title>" + escape_xml(valid_utf8(title)) + "</title>\n<desc>" +
                             escape_xml(description) + "</desc>");
   if (const std::size_t close = svg.rfind("</svg>"); close != std::string::npos)
     svg.insert(close, elements);
@@ -334,8 +356,8 @@ Result<void> write_figure(const std::filesystem::path& stem, double width_pt, do
     if (print.background != white) canvas.rectangle({0, 0, width, height}, print.background);
     enlarged(canvas);
   };
-  const Image image = draw_picture(width, height, print.dpi / 72, print.background, enlarged);
-  return write_png(image, file(".png"), print.dpi)
+  TRY(image, draw_picture(width, height, print.dpi / 72, print.background, enlarged));
+  return write_png(*image, file(".png"), print.dpi)
       .and_then([&] {
         return write_file(file(".svg"),
                           draw_svg(width, height, name, on_paper, print.background.a > 0));

@@ -81,6 +81,9 @@ struct TextStyle {
 /// Markup is `_{a}` (lowered), `^{−3}` (raised) and `*R*` (slanted).
 std::string plain(const std::string& text);
 
+/// The text with every byte that is not UTF-8, on which Pango aborts, replaced by U+FFFD.
+std::string valid_utf8(const std::string& text);
+
 enum class Marker { none, circle, square, diamond, triangle, cross };
 
 /// The default font family, which has every sign that is used.
@@ -110,6 +113,7 @@ class Canvas {
   void circle(Point centre, double radius, Colour fill, const Stroke& stroke = {{}, 0});
   /// Draws a marker of width `size`.
   void marker(Marker kind, Point at, double size, Colour fill, const Stroke& stroke);
+  /// Draws a picture; of one with a side longer than `largest_side` only every n-th pixel.
   void picture(const Image& image, const Box& box);
 
   /// Draws text with markup at an anchor, in several lines if it contains \n. Returns the bounding
@@ -126,6 +130,9 @@ class Canvas {
   /// of its own.
   std::vector<std::string> wrapped(const std::string& plain_text, double width,
                                    const TextStyle& style) const;
+  /// As wrapped(), but of text with markup, which no blank divides.
+  std::vector<std::string> wrapped_marked(const std::string& marked, double width,
+                                          const TextStyle& style) const;
   /// The text shortened by '…' to at most `width`.
   std::string shortened(const std::string& plain_text, double width, const TextStyle& style) const;
 
@@ -177,9 +184,13 @@ using DrawOn = std::function<void(Canvas&)>;
 /// Draws over a picture; the canvas unit is a pixel.
 void draw_over(Image& image, const DrawOn& draw);
 
-/// A picture of width x height units at `pixels_per_unit`, drawn on a background.
-Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
-                   const DrawOn& draw);
+/// The largest width and height of a picture that is drawn, in pixels (Cairo's limit).
+inline constexpr int largest_side = 32767;
+
+/// A picture of width x height units at `pixels_per_unit`, drawn on a background. Errors:
+/// Fault::bad_input if a side is longer than `largest_side`; Fault::io without memory.
+Result<Image> draw_picture(double width, double height, double pixels_per_unit, Colour background,
+                           const DrawOn& draw);
 
 /// An SVG of width x height points whose text remains text, in its font or a replacement of it;
 /// `title` and all texts are in its <title> and <desc> for search and screen readers. `paper`: on a
@@ -199,12 +210,13 @@ struct Print {
   Colour background = white;  ///< alpha 0: none
 
   /// Width in points; `usual` is the figure's own.
-  double width_pt(double usual) const { return width_mm > 0 ? width_mm * 72 / 25.4 : usual; }
+  double width_pt(double usual) const { return width_mm > 0 ? points_per_mm * width_mm : usual; }
   bool operator==(const Print&) const = default;
 };
 
 /// Writes a drawing, enlarged to the printed width, as `<stem>.png` with its dpi, `<stem>.svg` and
-/// `<stem>.pdf`. A file that cannot be written is absent. Errors: Fault::io with the path.
+/// `<stem>.pdf`. A file that cannot be written is absent. Errors: Fault::io with the path; those of
+/// draw_picture().
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
                           const std::string& title, const DrawOn& draw, const Print& print = {});
 

@@ -68,14 +68,7 @@ PangoAttrList* attributes(const std::vector<TextRun>& runs, double size) {
 }
 
 Layout make_layout(cairo_t* cairo, const std::string& marked, const TextStyle& style) {
-  // Pango aborts on text that is not UTF-8, as a user's title may be
-  std::string safe = marked;
-  if (!g_utf8_validate(safe.data(), gssize(safe.size()), nullptr)) {
-    char* valid = g_utf8_make_valid(safe.data(), gssize(safe.size()));
-    safe = valid;
-    g_free(valid);
-  }
-  const std::vector<TextRun> runs = parse_marked(safe);
+  const std::vector<TextRun> runs = parse_marked(valid_utf8(marked));
   std::string letters;
   for (const TextRun& run : runs) letters += run.text;
 
@@ -172,6 +165,13 @@ std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, 
 
 }  // namespace
 
+std::string valid_utf8(const std::string& text) {
+  if (g_utf8_validate(text.data(), gssize(text.size()), nullptr)) return text;
+  const std::unique_ptr<char, decltype(&g_free)> valid(
+      g_utf8_make_valid(text.data(), gssize(text.size())), g_free);
+  return valid.get();
+}
+
 Result<void> use_font(const std::string& family) {
   if (family.empty()) {
     font_family() = default_font;
@@ -193,7 +193,8 @@ Result<void> use_font(const std::string& family) {
   return {};
 }
 
-Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style) {
+Box Canvas::text(const std::string& any, Point anchor, const TextStyle& style) {
+  const std::string marked = valid_utf8(any);
   const Layout layout = make_layout(cairo_, marked, style);
   PangoRectangle ink_rectangle, logical_rectangle;
   pango_layout_get_extents(layout.get(), &ink_rectangle, &logical_rectangle);
@@ -254,11 +255,18 @@ TextStyle Canvas::fitted(const std::string& marked, double width, TextStyle styl
 
 std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
                                          const TextStyle& style) const {
+  auto lines = wrapped_marked(plain(text), width, style);
+  for (std::string& line : lines) line = without_marks(line);
+  return lines;
+}
+
+std::vector<std::string> Canvas::wrapped_marked(const std::string& text, double width,
+                                                const TextStyle& style) const {
   std::vector<std::string> lines;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    if (lines.empty() || measure(plain(longer), style).width > width)
+    if (lines.empty() || measure(longer, style).width > width)
       lines.push_back(word);
     else
       lines.back() = longer;

@@ -8,10 +8,8 @@
 namespace gridshell::render {
 namespace {
 
-double gamma(double v) {
-  v = std::clamp(v, 0.0, 1.0);
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
+/// A component in linear light, which may be outside [0, 1], as sRGB.
+float clamped_srgb(double v) { return float(to_srgb(std::clamp(v, 0.0, 1.0))); }
 
 Oklab mix(Oklab p, Oklab q, double t) {
   return {p.L + (q.L - p.L) * t, p.a + (q.a - p.a) * t, p.b + (q.b - p.b) * t};
@@ -71,9 +69,9 @@ Colour to_colour(Oklab lab, float alpha) {
   const double l = std::pow(lab.L + 0.3963377774 * lab.a + 0.2158037573 * lab.b, 3);
   const double m = std::pow(lab.L - 0.1055613458 * lab.a - 0.0638541728 * lab.b, 3);
   const double s = std::pow(lab.L - 0.0894841775 * lab.a - 1.2914855480 * lab.b, 3);
-  return {float(gamma(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s)),
-          float(gamma(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s)),
-          float(gamma(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)), alpha};
+  return {clamped_srgb(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          clamped_srgb(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          clamped_srgb(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s), alpha};
 }
 
 double contrast_to_white(Colour c) {

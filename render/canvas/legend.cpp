@@ -101,7 +101,7 @@ double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_
 
 double colour_bar_width(const ColourBar& bar, double font_size) {
   double width = 0;
-  draw_picture(1, 1, 1, {}, [&](Canvas& c) { width = colour_bar_width(c, bar, font_size); });
+  (void)draw_picture(1, 1, 1, {}, [&](Canvas& c) { width = colour_bar_width(c, bar, font_size); });
   return width;
 }
 

@@ -132,7 +132,7 @@ Result<void> check(const PanelFigure& figure) {
   if (figure.panels.empty()) return invalid("a figure needs at least one panel");
   const Image& first = figure.panels[0].picture;
   if (first.width < 1 || first.height < 1)
-    return invalid("the picture is too small for its panels: it takes more of [movie] size");
+    return invalid("[movie] size: the picture is too small for its panels");
   for (const Panel& panel : figure.panels)
     if (panel.picture.width != first.width || panel.picture.height != first.height)
       return invalid("panels of a figure: expected one size, got {} x {} and {} x {}", first.width,

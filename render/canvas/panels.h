@@ -45,7 +45,8 @@ struct PanelFigure {
 };
 
 /// The figure as a picture; without a dpi a pixel of a panel is a pixel of the figure. Errors:
-/// Fault::bad_input for no panel, empty panels or panels of different sizes.
+/// Fault::bad_input for no panel, empty panels or panels of different sizes; those of
+/// draw_picture().
 Result<Image> draw_panels(const PanelFigure& figure);
 
 /// Writes the figure as the PNG `file`. If its panels have lines, it is also written as

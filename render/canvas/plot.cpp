@@ -211,7 +211,7 @@ void draw_legend(Canvas& canvas, const Box& box, const Plot& plot) {
 
 double legend_height(const Plot& plot, double width) {
   double height = 0;
-  draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+  (void)draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
     const Legend legend(canvas, plot);
     if (!legend.empty()) height = legend.height_above_axes(width);
   });

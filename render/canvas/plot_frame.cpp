@@ -159,7 +159,7 @@ std::string title_in_lines(const Canvas& canvas, const Box& box, const Plot& plo
   for (std::string line; std::getline(lines, line);) {
     const bool fits = canvas.measure(line, style).width <= box.width;
     for (const std::string& part :
-         fits ? std::vector{line} : canvas.wrapped(line, box.width, style))
+         fits ? std::vector{line} : canvas.wrapped_marked(line, box.width, style))
       text += (text.empty() ? "" : "\n") + part;
   }
   return text;
@@ -320,10 +320,10 @@ void Legend::draw_entry(Canvas& canvas, const Entry& entry, double x, double mid
     canvas.marker(s.marker, key.middle(), s.marker_size, fill, {s.colour, s.hollow ? 0.9 : 0});
   }
   // a name too long for the plot is set smaller
-  TextStyle style{.size = size_, .align_y = AlignY::middle};
+  constexpr double least = 0.2;  // of the size
   const double at = x + key_ + 0.5 * size_;
-  style.size *= std::min(1.0, (end - at) / std::max(1e-9, canvas.measure(entry.name, style).width));
-  canvas.text(entry.name, {at, middle}, style);
+  const TextStyle style{.size = size_, .align_y = AlignY::middle};
+  canvas.text(entry.name, {at, middle}, canvas.fitted(entry.name, end - at, style, least));
 }
 
 }  // namespace gridshell::render

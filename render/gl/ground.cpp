@@ -46,7 +46,7 @@ Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
 
 /// Number of texels along a side of the map of light: finer than the narrowest penumbra and than
 /// the pixels, and equal in all frames of a movie.
-int texels_for(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 512, 1024); }
+int light_texels(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 512, 1024); }
 
 /// Disables blending, depth test and culling, so that every pixel is overwritten.
 void fill_only(const Gl& gl) {
@@ -174,7 +174,7 @@ void Ground::draw_ground_light(const RenderJob& shot, const Eigen::Matrix4d& mat
 
 Result<void> Ground::soften(const RenderJob& shot, const ShadowMap& shadow, const Lighting& light,
                             bool many) {
-  const int texels = texels_for(shot.height);
+  const int texels = light_texels(shot.height);
   TRY_DO(light_.bind(texels, texels, GL_R16F));
   const Program& program = programs_.soften;
   program.use();

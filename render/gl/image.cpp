@@ -25,8 +25,7 @@ void on_error(png_structp png, png_const_charp message) {
   png_longjmp(png, 1);
 }
 
-// the largest picture that is read (16384 x 16384), and the largest text or profile in it (bytes)
-constexpr std::size_t largest_pixels = std::size_t(1) << 28, largest_chunk = 8000000;
+constexpr std::size_t largest_chunk = 8000000;  // bytes of a text or profile that is read
 
 void on_warning(png_structp, png_const_charp) {}
 
@@ -104,10 +103,10 @@ bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& 
   png_read_info(png, info);
   const std::size_t width = png_get_image_width(png, info),
                     height = png_get_image_height(png, info);
-  if (width * height > largest_pixels) {
+  if (width * height > most_pixels) {
     std::snprintf(failure.message, sizeof failure.message,
                   "it has %zu x %zu pixels, more than the %zu million that are read", width, height,
-                  largest_pixels / 1000000);
+                  most_pixels / 1000000);
     png_longjmp(png, 1);
   }
   // any PNG becomes 8-bit RGBA: palettes and grey are expanded, a missing alpha is opaque
@@ -163,6 +162,9 @@ void outline(Image& image, const Comparison& block, int thickness) {
 Result<std::string> encode_png(const Image& image, double dpi) {
   if (image.width < 1 || image.height < 1)
     return invalid("a picture of {} x {} pixels cannot be a PNG", image.width, image.height);
+  if (std::size_t(image.width) * std::size_t(image.height) > most_pixels)
+    return invalid("size of the picture: got {} x {} pixels, expected at most {} million",
+                   image.width, image.height, most_pixels / 1000000);
   const bool with_alpha = !opaque(image);
   const std::vector<std::uint8_t> rows = with_alpha ? rows_of<4>(image) : rows_of<3>(image);
   // libdeflate takes a third of zlib's time for the same size

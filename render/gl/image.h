@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -46,8 +47,9 @@ inline float to_linear(float c) {
 }
 
 /// A component in linear light, in [0, 1], as sRGB.
-inline float to_srgb(float v) {
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
+template <std::floating_point T>
+T to_srgb(T v) {
+  return v <= T(0.0031308) ? T(12.92) * v : T(1.055) * std::pow(v, 1 / T(2.4)) - T(0.055);
 }
 
 /// r, g and b in linear light, and the unchanged alpha.
@@ -55,9 +57,12 @@ inline Eigen::Vector4f to_linear(const Colour& c) {
   return {to_linear(c.r), to_linear(c.g), to_linear(c.b), c.a};
 }
 
+/// The largest picture that is written and read (16384 x 16384).
+inline constexpr std::size_t most_pixels = std::size_t(1) << 28;
+
 /// The picture as the bytes of an 8-bit PNG: RGB if every pixel is opaque, else RGBA. A `dpi` above
 /// 0 is written into the file: pixels per inch as printed. Errors: Fault::bad_input for an empty
-/// picture; Fault::io without memory.
+/// picture and one with more than `most_pixels`; Fault::io without memory.
 Result<std::string> encode_png(const Image& image, double dpi = 0);
 
 /// Writes a PNG file, or leaves none if it fails. Errors: Fault::io with the path and the system's
@@ -65,7 +70,7 @@ Result<std::string> encode_png(const Image& image, double dpi = 0);
 Result<void> write_png(const Image& image, const std::filesystem::path& path, double dpi = 0);
 
 /// The picture in the bytes of a PNG of any colour type and bit depth, as 8-bit RGBA. Errors:
-/// Fault::bad_input, with `name`, if it is no PNG, is damaged or has more than 2^28 pixels.
+/// Fault::bad_input, with `name`, if it is no PNG, is damaged or has more than `most_pixels`.
 Result<Image> decode_png(std::string_view bytes, const std::string& name);
 
 /// Reads a PNG from a file. Errors: Fault::io with the path and why it cannot be read; those of

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 namespace gridshell::render {
 std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed) {
@@ -55,28 +57,38 @@ std::int16_t share_of_widest(float radius) {
 
 constexpr int most_steps = 4;  // pieces along a cell's side
 
-/// The position of a node: index `at` in rod `rod`; -1: none.
+/// The position of a node: index `at` in rod `rod`.
 struct Place {
-  int rod = -1, at = 0;
+  int rod = 0, at = 0;
 };
 
-/// The (at most two) rods through every node.
-std::vector<std::array<Place, 2>> places(const record::Layout& layout, std::size_t nodes) {
-  std::vector<std::array<Place, 2>> result(nodes);
-  for (int r = 0; r < int(layout.rods.size()); ++r)
-    for (int k = 0; k < int(layout.rods[r].size()); ++k) {
-      auto& slots = result[layout.rods[r][k]];
-      slots[slots[0].rod < 0 ? 0 : 1] = {r, k};
-    }
-  return result;
-}
+/// The positions of every node.
+class Places {
+ public:
+  Places(const record::Layout& layout, std::size_t nodes) : first_(nodes + 1) {
+    for (const std::vector<int>& rod : layout.rods)
+      for (const int node : rod) ++first_[std::size_t(node) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    all_.resize(first_.back());
+    std::vector<std::size_t> next = first_;
+    for (int r = 0; r < int(layout.rods.size()); ++r)
+      for (int k = 0; k < int(layout.rods[r].size()); ++k)
+        all_[next[std::size_t(layout.rods[r][k])]++] = {r, k};
+  }
+  std::span<const Place> operator[](int node) const {
+    return std::span(all_).subspan(first_[node], first_[node + 1] - first_[node]);
+  }
+
+ private:
+  std::vector<std::size_t> first_;  // into all_, of each node
+  std::vector<Place> all_;
+};
 
 /// The nodes from `a` to `b` along their common rod; `a` and `b` alone if there is none.
-std::vector<int> side(const record::Layout& layout, const std::vector<std::array<Place, 2>>& where,
-                      int a, int b) {
+std::vector<int> side(const record::Layout& layout, const Places& where, int a, int b) {
   for (const Place& from : where[a])
     for (const Place& to : where[b]) {
-      if (from.rod < 0 || from.rod != to.rod) continue;
+      if (from.rod != to.rod) continue;
       const int step = from.at <= to.at ? 1 : -1;
       std::vector<int> result;
       for (int k = from.at; k != to.at + step; k += step)
@@ -122,9 +134,8 @@ bool straight(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side, float
 
 /// The patch of a cell; its four corners alone if no side is further from its chord than half the
 /// tolerance.
-Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
-                  const std::vector<std::array<Place, 2>>& where, const record::Cell& cell,
-                  float tolerance) {
+Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes, const Places& where,
+                  const record::Cell& cell, float tolerance) {
   std::array<int, 4> corner;
   for (int k = 0; k < 4; ++k) corner[k] = layout.joints[cell.joints[k]].node;
   const std::array<std::vector<int>, 4> sides = {
@@ -265,7 +276,7 @@ std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout
                                         const Eigen::Matrix3Xd& nodes,
                                         std::span<const Eigen::Vector4f> colours,
                                         float tolerance_mm) {
-  const auto where = places(layout, nodes.cols());
+  const Places where(layout, std::size_t(nodes.cols()));
   std::vector<CellPatch> patches;
   for (int c = 0; c < int(layout.cells.size()); ++c)
     if (colours[c].w() > 0)

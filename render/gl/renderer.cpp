@@ -19,16 +19,18 @@ namespace {
 constexpr double radian = std::numbers::pi / 180;
 
 constexpr int largest_target = 4096;  // samples per side of a tile, for the sake of the caches
-constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
+constexpr int most_samples = 16, most_passes = 4096, longest_side = 32767;
 
 Result<void> check(const DrawQuality& quality, int width, int height) {
-  if (width < 1 || height < 1 || width > largest_picture || height > largest_picture)
-    return invalid("size: got {} x {} pixels, expected 1 to {} each", width, height,
-                   largest_picture);
+  if (width < 1 || height < 1 || width > longest_side || height > longest_side ||
+      std::size_t(width) * std::size_t(height) > most_pixels)
+    return invalid("size: got {} x {} pixels, expected 1 to {} each and at most {} million", width,
+                   height, longest_side, most_pixels / 1000000);
   if (quality.supersample < 1 || quality.supersample > most_samples)
-    return invalid("supersample = {}: 1 to {}", quality.supersample, most_samples);
+    return invalid("supersample: got {}, expected 1 to {}", quality.supersample, most_samples);
   if (quality.jittered_passes < 1 || quality.jittered_passes > most_passes)
-    return invalid("jittered_passes = {}: 1 to {}", quality.jittered_passes, most_passes);
+    return invalid("jittered_passes: got {}, expected 1 to {}", quality.jittered_passes,
+                   most_passes);
   return {};
 }
 

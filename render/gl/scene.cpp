@@ -30,35 +30,6 @@ using Colours = std::vector<Eigen::Vector4f>;
 /// Rods, rings and joints are never translucent.
 Eigen::Vector4f opaque(const Colour& c) { return to_linear({c.r, c.g, c.b, 1}); }
 
-/// The first inconsistency with which drawing would read past an array or draw NaN; empty: none.
-std::string mismatch(const Drawing& drawing) {
-  if (!drawing.layout) return "has no layout";
-  const auto nodes = std::size_t(drawing.nodes.cols());
-  const auto& layout = *drawing.layout;
-  if (!drawing.nodes.allFinite()) return "has a node that is not finite";
-  if (!drawing.node_colours.empty() && drawing.node_colours.size() != nodes)
-    return fmt::format("has {} node colours for {} nodes", drawing.node_colours.size(), nodes);
-  if (!drawing.cell_colours.empty() && drawing.cell_colours.size() != layout.cells.size())
-    return fmt::format("has {} cell colours for {} cells", drawing.cell_colours.size(),
-                       layout.cells.size());
-  const auto outside = [](const std::vector<std::vector<int>>& rods, std::size_t count) {
-    const auto missing = [&](int node) { return node < 0 || std::size_t(node) >= count; };
-    return std::ranges::any_of(rods,
-                               [&](const auto& rod) { return std::ranges::any_of(rod, missing); });
-  };
-  if (outside(layout.rods, nodes))
-    return fmt::format("has a rod with more than its {} nodes", nodes);
-  for (const auto& joint : layout.joints)
-    if (joint.node < 0 || std::size_t(joint.node) >= nodes)
-      return fmt::format("has joint ({}, {}) outside its {} nodes", joint.i, joint.j, nodes);
-  for (const auto& ghost : drawing.ghosts)
-    if (!ghost.nodes.allFinite() || outside(ghost.rods, std::size_t(ghost.nodes.cols())))
-      return "has ghost rods with a node that is missing or not finite";
-  for (const auto& ring : drawing.rings)
-    if (!ring.points.allFinite()) return "has a ring with a point that is not finite";
-  return {};
-}
-
 /// A radius as drawn: no thinner than a sample.
 float radius_of(double diameter_mm, double mm_per_sample) {
   return float(0.5 * std::max(diameter_mm, 1.1 * mm_per_sample));
@@ -381,7 +352,7 @@ double Scene::radius() const { return 0.5 * (high - low).norm(); }
 
 Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample,
                          const DrawQuality& quality) {
-  if (const std::string fault = mismatch(drawing); !fault.empty())
+  if (const std::string fault = drawing_error(drawing); !fault.empty())
     return invalid("the drawing " + fault);
   Scene scene;
   Weaver weaver(scene, drawing, camera, mm_per_sample, quality);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -72,5 +73,9 @@ inline Eigen::Matrix4d crop(const Tile& tile, int width, int height, const Eigen
   m(1, 3) = sy * ((2.0 * tile.y + tile.height) / height - 1 + 2 * shift.y() / height);
   return m;
 }
+
+/// The first inconsistency with which drawing would read past an array or draw NaN, as the end of
+/// "the drawing ..."; empty: none.
+std::string drawing_error(const Drawing& drawing);
 
 }  // namespace gridshell::render

@@ -196,11 +196,11 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
 /// The runs of one cell of a sweep's map.
 struct SweepCell {
   double sum = 0;
-  int found = 0, runs = 0;
+  int found = 0, failed = 0;  ///< runs with the figure, runs without a state
   bool limited = false;
 
   double mean() const { return found > 0 ? sum / found : std::nan(""); }
-  bool lost() const { return runs > 0 && found == 0; }
+  bool lost() const { return failed > 0 && found == 0; }
 };
 
 /// The cells of one case, x fastest.
@@ -224,7 +224,7 @@ class SweepMap {
         SweepCell& cell =
             made.cells[place_of(table, y_, row, 1) * x_.texts.size() + place_of(table, x_, row, 0)];
         const double value = number_of(row, view.figure);
-        ++cell.runs;
+        cell.failed += row.result.outcome != record::PointOutcome::done;
         cell.limited = cell.limited || !limit_of(row).empty();
         if (!std::isfinite(value)) continue;
         cell.sum += value;

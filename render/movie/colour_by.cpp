@@ -128,13 +128,11 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
 
 tl::unexpected<Error> missing_values_error(ColourBy by) {
   const std::string requested = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
-  if (by == ColourBy::deviation)
-    return invalid(requested + ": the run has no net that its shell could lie off");
+  if (by == ColourBy::deviation) return invalid(requested + ": the run has no net");
   if (by == ColourBy::joint_angle)
-    return invalid(requested + ": no joint of the run has a law or a spring, which angles are of");
+    return invalid(requested + ": no joint has a law or a spring, whose angles are shown");
   return invalid(
-      "{}: no frame of the run knows the rods' {}, as runs of an older version "
-      "and of a net do not; run it again",
+      "{}: the run has no {} of its rods, as those of an older version and of a net; run it again",
       requested,
       by == ColourBy::axial_force ? "axial forces"
       : by == ColourBy::energy    ? "bending energy"

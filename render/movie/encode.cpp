@@ -87,7 +87,7 @@ Error reported(Error error, const std::filesystem::path& frames,
                const std::filesystem::path& movie) {
   if (error.fault == Fault::io)
     error.message = fmt::format(
-        "cannot make '{}' of the frames in '{}', which are whole: {} (ffmpeg takes pictures of "
+        "cannot make '{}' of the frames in '{}', which are complete: {} (ffmpeg takes pictures of "
         "less than 16384 x 16384 pixels; a smaller --size needs less memory too)",
         movie.string(), frames.string(), error.message);
   return error;
@@ -171,7 +171,7 @@ Result<void> MovieEncoder::finish(const Watch& watch) {
     return tl::unexpected(reported(ended.error(), frames_, movie_));
   if (!takes_more_)
     return tl::unexpected(
-        reported({Fault::io, "ffmpeg took no more pictures, and said nothing"}, frames_, movie_));
+        reported({Fault::io, "ffmpeg stopped reading frames without a message"}, frames_, movie_));
   return file_->commit();
 }
 

@@ -6,21 +6,14 @@
 #include <utility>
 
 #include "render/canvas/text.h"
+#include "render/movie/paper.h"
 
 namespace gridshell::render {
 namespace {
 
-constexpr double a4_width = 595.28, a4_height = 841.89, margin = 42, foot = 20;  // points
-constexpr double wide = a4_width - 2 * margin, line = 12, between = 8;
-const Colour red{0.7f, 0.1f, 0.1f, 1}, grey{0.45f, 0.45f, 0.48f, 1};
+constexpr double foot = 20, line = 12, between = 8;  // points
+const Colour grey{0.45f, 0.45f, 0.48f, 1};
 const TextStyle usual{.size = 8.5};
-
-/// Breaks text into lines before a sheet exists.
-std::vector<std::string> lines_of(const std::string& text, double width, const TextStyle& style) {
-  std::vector<std::string> lines;
-  draw_picture(8, 8, 1, white, [&](Canvas& canvas) { lines = canvas.wrapped(text, width, style); });
-  return lines;
-}
 
 /// The left edge and the width of every column.
 std::vector<std::pair<double, double>> places_of(const std::vector<TableColumn>& columns) {
@@ -28,9 +21,9 @@ std::vector<std::pair<double, double>> places_of(const std::vector<TableColumn>&
   double known = gap * double(columns.size() - 1);
   for (const TableColumn& column : columns) known += column.width;
   std::vector<std::pair<double, double>> places;
-  double x = margin;
+  double x = a4_margin;
   for (const TableColumn& column : columns) {
-    const double width = column.width > 0 ? column.width : wide - known;
+    const double width = column.width > 0 ? column.width : text_width - known;
     places.emplace_back(x, width);
     x += width + gap;
   }
@@ -46,52 +39,6 @@ void draw_cell(Canvas& canvas, const std::string& marked, const std::pair<double
 
 using exports::CutRod;
 using exports::FabricationPlan;
-using exports::Pin;
-
-const Colour blue{0.1f, 0.3f, 0.65f, 1};
-
-/// Writes a page's title, smaller if it would not fit.
-void draw_title(Canvas& canvas, const std::string& title, double size) {
-  canvas.text(plain(title), {margin, margin},
-              canvas.fitted(plain(title), a4_width - 2 * margin, {size, ink, true}));
-}
-
-void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box) {
-  Eigen::Matrix2Xd corners(2, 2 * Eigen::Index(work.rods.size()));
-  for (std::size_t r = 0; r < work.rods.size(); ++r) {
-    corners.col(2 * Eigen::Index(r)) = work.rods[r].begin;
-    corners.col(2 * Eigen::Index(r) + 1) = work.rods[r].end;
-  }
-  const PlanView fit(box.inset(18), corners);
-  canvas.polyline(fit.line(work.original_boundary), {red, 0.8}, true);
-  // names as large as fit without touching one another
-  const double size = std::clamp(0.6 * work.spacing_mm * fit.scale, 3.0, 7.0);
-  for (const CutRod& rod : work.rods) {
-    Eigen::Vector2d from = rod.begin;
-    const auto draw_to = [&](const Eigen::Vector2d& to) {
-      canvas.line(fit(from), fit(to), {rod.hard_to_build() ? red : ink, 0.6});
-      from = to;
-    };
-    for (const Eigen::Vector2d& corner : rod.corners) draw_to(corner);
-    draw_to(rod.end);
-    const Point at = fit(work.label_position(rod, 1.3 * size / fit.scale));
-    canvas.text(rod.name, at, {size, ink, false, AlignX::centre, AlignY::middle});
-  }
-  for (const Eigen::Vector2d& joint : work.joints) canvas.circle(fit(joint), 1.1, blue);
-  canvas.text("footprint, seen from above; u-rods begin at the left, v-rods below",
-              {box.middle().x, box.bottom()}, {7.5, ink, false, AlignX::centre, AlignY::bottom});
-}
-
-void draw_plate(Canvas& canvas, const FabricationPlan& work, const Box& box) {
-  const Eigen::Matrix2Xd boundary = work.actuated_boundary.topRows<2>();
-  const PlanView fit(box.inset(18), boundary);
-  canvas.polyline(fit.line(boundary), {red, 0.8}, true);
-  for (const Pin& pin : work.pins)
-    if (pin.in_ring) canvas.circle(fit(pin.at.head<2>()), 1.3, {1, 1, 1, 1}, {ink, 0.7});
-  canvas.text(work.has_plate() ? "actuated boundary with its holes, seen from above"
-                               : "positions of the ends, seen from above; heights in pins.csv",
-              {box.middle().x, box.bottom()}, {7.5, ink, false, AlignX::centre, AlignY::bottom});
-}
 
 std::string marks_of(const CutRod& rod) {
   std::string marks;
@@ -141,86 +88,35 @@ std::vector<TableRow> cut_list(const FabricationPlan& work) {
   return rows;
 }
 
-std::string short_legs(const FabricationPlan& work) {
-  std::string names;
-  for (const CutRod& rod : work.rods)
-    if (rod.hard_to_build())
-      names += fmt::format("{}{} ({:.1f} mm)", names.empty() ? "" : ", ", rod.name,
-                           std::min(rod.leg_begin_mm, rod.leg_end_mm));
-  return names;
-}
-
-std::vector<std::string> steps(const FabricationPlan& work) {
-  const auto ring_pins = std::ranges::count(work.pins, true, &Pin::in_ring);
-  const auto far_pins = long(work.pins.size()) - ring_pins;
-  constexpr double largest_print_mm = 3000;  // largest footprint that is printed at full size
-  const double extent =
-      (work.original_boundary.rowwise().maxCoeff() - work.original_boundary.rowwise().minCoeff())
-          .maxCoeff();
-  const auto spliced =
-      std::ranges::count_if(work.rods, [](const CutRod& rod) { return !rod.splices_mm.empty(); });
-  const char* bolt = work.width_mm > 0 ? "bolt" : "tie";
-  std::vector<std::string> list{
-      fmt::format("Cut {} {}, {:.2f} m in all, to the lengths of the cut list{}; write its name on "
-                  "each.",
-                  work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm(),
-                  spliced > 0
-                      ? fmt::format(", {} of them of pieces that meet at its splices", spliced)
-                      : std::string()),
-      "Mark the joints on each rod at the distances of the cut list, measured from its start: the "
-      "left of a u-rod, the lower end of a v-rod.",
-      fmt::format("{}, lay the u-rods on it, the v-rods over them, and {} them at all {} crossings "
-                  "so that they can turn but not slide.",
-                  extent > largest_print_mm
-                      ? "Set the footprint out on the ground (export --what footprint)"
-                      : "Print the footprint at full size (export --what footprint)",
-                  bolt, work.joints.size())};
-  if (work.has_plate()) {
-    list.push_back(fmt::format("Drill the {} holes of the actuated boundary (export --what plate).",
-                               ring_pins));
-    list.emplace_back(
-        "Put the ends into their holes, opposite ones in turn from the middle outwards. Fix the "
-        "middle up while the first ones go in: a flat grid may also buckle down.");
-  } else if (ring_pins > 0) {
-    const auto [low, high] = work.heights_of_pins();
-    list.push_back(fmt::format(
-        "Make {} supports at the positions of 'export --what plate --to pins.csv': their "
-        "heights differ by up to {:.0f} mm, so no flat plate carries them.",
-        ring_pins, high - low));
-    list.emplace_back(
-        "Bring the grid up and fix its ends to the supports, opposite ones in turn from the middle "
-        "outwards; prop its middle until all are fixed.");
-  }
-  if (far_pins > 0)
-    list.push_back(
-        fmt::format("Fix the {} far ends at the positions of the second ring, which do not lie in "
-                    "the plate (export --what plate --to pins.csv).",
-                    far_pins));
-  list.insert(list.end(), work.hand.begin(), work.hand.end());
-  return list;
-}
-
 }  // namespace
+
+std::vector<std::string> lines_of(const std::string& text, double width, const TextStyle& style) {
+  std::vector<std::string> lines;
+  (void)draw_picture(8, 8, 1, white,
+                     [&](Canvas& canvas) { lines = canvas.wrapped(text, width, style); });
+  return lines;
+}
 
 void Sheets::heading(const std::string& plain_text, double size) {
   add({1.9 * size,
        [=](Canvas& canvas, double y) {
          const TextStyle style{.size = size, .bold = true};
-         canvas.text(plain(plain_text), {margin, y + 1.4 * size},
-                     canvas.fitted(plain(plain_text), wide, style));
+         canvas.text(plain(plain_text), {a4_margin, y + 1.4 * size},
+                     canvas.fitted(plain(plain_text), text_width, style));
        },
        true});
 }
 
 void Sheets::text(const std::string& plain_text) {
-  for (const std::string& words : lines_of(plain_text, wide, usual))
+  for (const std::string& words : lines_of(plain_text, text_width, usual))
     add({line, [=](Canvas& canvas, double y) {
-           canvas.text(plain(words), {margin, y + line - 3}, usual);
+           canvas.text(plain(words), {a4_margin, y + line - 3}, usual);
          }});
   add({between / 2, {}});
 }
 
 void Sheets::table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows) {
+  constexpr std::size_t most_together = 20;  // lines of a row
   const auto places = places_of(columns);
   const std::size_t head = items_.size();
   add({line + 3,
@@ -228,35 +124,38 @@ void Sheets::table(const std::vector<TableColumn>& columns, const std::vector<Ta
          for (std::size_t k = 0; k < columns.size(); ++k)
            draw_cell(canvas, columns[k].title, places[k], y,
                      {.size = usual.size, .bold = true, .align_x = columns[k].align});
-         canvas.line({margin, y + line + 1}, {a4_width - margin, y + line + 1}, {ink, 0.6});
+         canvas.line({a4_margin, y + line + 1}, {a4_width - a4_margin, y + line + 1}, {ink, 0.6});
        },
        true});
   for (const TableRow& row : rows) {
     std::vector<std::vector<std::string>> cells;
     std::size_t lines = 1;
     for (std::size_t k = 0; k < row.cells.size(); ++k) {
-      cells.push_back(columns[k].width > 0 ? std::vector<std::string>{row.cells[k]}
-                                           : lines_of(row.cells[k], places[k].second, usual));
+      const bool broken = columns[k].width == 0 || columns[k].align == AlignX::left;
+      cells.push_back(broken ? lines_of(row.cells[k], places[k].second, usual)
+                             : std::vector<std::string>{row.cells[k]});
       lines = std::max(lines, cells.back().size());
     }
-    add({line * double(lines),
-         [=, colour = row.stands_out ? red : ink](Canvas& canvas, double y) {
-           for (std::size_t k = 0; k < cells.size(); ++k)
-             for (std::size_t n = 0; n < cells[k].size(); ++n)
-               draw_cell(canvas, plain(cells[k][n]), places[k], y + line * double(n),
-                         {.size = usual.size, .colour = colour, .align_x = columns[k].align});
-         },
-         false, head});
+    // only a row higher than most may continue on the next sheet
+    for (std::size_t n = 0; n < lines; ++n)
+      add({line,
+           [=, colour = row.stands_out ? alarm_red : ink](Canvas& canvas, double y) {
+             for (std::size_t k = 0; k < cells.size(); ++k)
+               if (n < cells[k].size())
+                 draw_cell(canvas, plain(cells[k][n]), places[k], y,
+                           {.size = usual.size, .colour = colour, .align_x = columns[k].align});
+           },
+           lines <= most_together && n + 1 < lines, head});
   }
   add({between, {}});
 }
 
 void Sheets::values(const std::vector<std::pair<std::string, std::string>>& pairs) {
-  constexpr double half = wide / 2, name = 0.5 * half;
+  constexpr double half = text_width / 2, name = 0.5 * half;
   for (std::size_t k = 0; k < pairs.size(); k += 2)
     add({line, [=](Canvas& canvas, double y) {
            for (std::size_t n = k; n < std::min(k + 2, pairs.size()); ++n) {
-             const double x = margin + (n == k ? 0 : half);
+             const double x = a4_margin + (n == k ? 0 : half);
              draw_cell(canvas, plain(pairs[n].first), {x, name - 6}, y,
                        {.size = usual.size, .colour = grey});
              draw_cell(canvas, plain(pairs[n].second), {x + name, half - name - 8}, y, usual);
@@ -266,24 +165,24 @@ void Sheets::values(const std::vector<std::pair<std::string, std::string>>& pair
 }
 
 void Sheets::pictures(const std::vector<Image>& images) {
-  const double count = double(images.size()), each = (wide - (count - 1) * between) / count,
+  const double count = double(images.size()), each = (text_width - (count - 1) * between) / count,
                height = each * images.front().height / images.front().width;
   add({height + between, [=](Canvas& canvas, double y) {
          for (std::size_t k = 0; k < images.size(); ++k)
-           canvas.picture(images[k], {margin + double(k) * (each + between), y, each, height});
+           canvas.picture(images[k], {a4_margin + double(k) * (each + between), y, each, height});
        }});
 }
 
 void Sheets::plot(const Plot& plot, double height) {
   add({height + between, [=](Canvas& canvas, double y) {
-         draw_plot(canvas, {margin, y, wide, height}, plot);
+         draw_plot(canvas, {a4_margin, y, text_width, height}, plot);
        }});
 }
 
 void Sheets::next_sheet() { add({break_here, {}}); }
 
 std::vector<std::vector<std::size_t>> Sheets::laid_out() const {
-  constexpr double room = a4_height - 2 * margin - foot;
+  constexpr double room = a4_height - 2 * a4_margin - foot;
   std::vector<std::vector<std::size_t>> sheets(1);
   double used = 0;
   const auto put = [&](std::size_t k) {
@@ -312,7 +211,7 @@ std::string Sheets::pdf() const {
   std::vector<DrawOn> drawn;
   for (std::size_t n = 0; n < sheets.size(); ++n)
     drawn.emplace_back([&, n](Canvas& canvas) {
-      double y = margin;
+      double y = a4_margin;
       for (const std::size_t k : sheets[n]) {
         if (items_[k].draw) items_[k].draw(canvas, y);
         y += items_[k].height;
@@ -320,9 +219,9 @@ std::string Sheets::pdf() const {
       const TextStyle style{.size = 7.5, .colour = grey};
       TextStyle number = style;
       number.align_x = AlignX::right;
-      canvas.text(plain(title_), {margin, a4_height - margin}, style);
+      canvas.text(plain(title_), {a4_margin, a4_height - a4_margin}, style);
       canvas.text(fmt::format("{} of {}", n + 1, sheets.size()),
-                  {a4_width - margin, a4_height - margin}, number);
+                  {a4_width - a4_margin, a4_height - a4_margin}, number);
     });
   return draw_pdf(a4_width, a4_height, title_, drawn);
 }
@@ -353,42 +252,6 @@ std::string cut_list_pdf(const FabricationPlan& work) {
   sheets.heading(work.title + ": cut list", 13);
   add_cut_list(sheets, work);
   return sheets.pdf();
-}
-
-std::string assembly_sheet_pdf(const FabricationPlan& work) {
-  const DrawOn draw = [&](Canvas& canvas) {
-    const double wide = a4_width - 2 * margin, half = (wide - 16) / 2;
-    const TextStyle text{9, ink};
-    draw_title(canvas, work.title + ": assembly", 14);
-    canvas.text(
-        fmt::format("{}, joints at every {:g} mm along them", work.section_text(), work.spacing_mm),
-        {margin, margin + 16}, text);
-    draw_footprint(canvas, work, {margin, margin + 26, half, half + 10});
-    draw_plate(canvas, work, {margin + half + 16, margin + 26, half, half + 10});
-    double y = margin + half + 70;
-    const auto put = [&](const std::string& words, double indent) {
-      for (const std::string& line : canvas.wrapped(words, wide - indent, text)) {
-        canvas.text(plain(line), {margin + indent, y}, text);
-        y += 14;
-      }
-    };
-    int number = 0;
-    for (const std::string& step : steps(work)) {
-      canvas.text(fmt::format("{}.", ++number), {margin, y}, text);
-      put(step, 16);
-      y += 4;
-    }
-    const std::string hard = short_legs(work);
-    if (hard.empty()) return;
-    y += 6;
-    canvas.text("Hard to build", {margin, y}, {9, red, true});
-    y += 14;
-    put(fmt::format("Legs below {:g} mm leave no room between a joint and the boundary: {}. Leave "
-                    "these joints untied, or move the boundary.",
-                    exports::shortest_leg_mm, hard),
-        0);
-  };
-  return draw_pdf(a4_width, a4_height, work.title + ": assembly", {draw});
 }
 
 }  // namespace gridshell::render

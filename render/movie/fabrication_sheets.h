@@ -14,8 +14,9 @@ namespace gridshell::render {
 /// One column of a table.
 struct TableColumn {
   std::string title;  ///< text with markup
-  double width = 0;   ///< points; 0: the remaining width, with the text broken into lines
-  AlignX align = AlignX::right;
+  double width = 0;   ///< points; 0: the remaining width
+  AlignX align =
+      AlignX::right;  ///< at the left, or of the remaining width: text is broken into lines
 };
 
 /// A row of a table, in plain text; red if `stands_out`.
@@ -77,7 +78,7 @@ void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);
 /// The cut list as the bytes of a PDF.
 std::string cut_list_pdf(const exports::FabricationPlan& work);
 
-/// The assembly sheet as the bytes of a PDF of one A4 page: small drawings of the footprint and the
+/// The assembly sheet as the bytes of a PDF of A4 pages: small drawings of the footprint and the
 /// plate, the steps, and the legs that are too short to build.
 std::string assembly_sheet_pdf(const exports::FabricationPlan& work);
 

@@ -14,7 +14,7 @@ namespace {
 // the title in at most two lines, which are shortened if necessary
 std::vector<std::string> lines_of_title(const MovieStyle& style, double width, double font_size) {
   std::vector<std::string> lines;
-  draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+  (void)draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
     const TextStyle font = title_style(style, font_size);
     lines = canvas.wrapped(style.title, width, font);
     for (; lines.size() > 2; lines.pop_back()) lines[lines.size() - 2] += " " + lines.back();

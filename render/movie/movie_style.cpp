@@ -116,6 +116,8 @@ Appearance appearance_of(const preset::Style& style) {
   choose(look.joint, style.joint_colour);
   choose(look.ring, style.ring_colour);
   choose(look.background, style.background);
+  look.rod_chosen = !style.rod_colour.empty();
+  look.joint_chosen = !style.joint_colour.empty();
   if (is_dark(look.background)) {
     // colours that were not chosen are visible on it and on nearly white cells
     for (const auto& [colour, request] : {std::pair(&look.rod, &style.rod_colour),
@@ -191,7 +193,7 @@ DrawQuality draw_quality(const MovieStyle& style) {
   return quality;
 }
 
-Image title_card(const MovieStyle& style) {
+Result<Image> title_card(const MovieStyle& style) {
   const double w = style.width(), h = style.height();
   return draw_picture(w, h, 1, style.look.background, [&](Canvas& canvas) {
     TextStyle title{.size = style.font_scale * 0.075 * std::min(h, 0.6 * w),

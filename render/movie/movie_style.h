@@ -21,9 +21,10 @@ struct Appearance {
   /// widths as drawn, but at least about a pixel; rod_mm 0: the rods' own; joint_mm 0: no joints
   double rod_mm = 0, joint_mm = 3, ring_mm = 1.4;
   Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.52f, 0.53f, 0.55f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
-      background{1, 1, 1, 1};  ///< alpha 0: a transparent background
-  ColourMap map = nullptr;     ///< null: that of the quantity
-  std::vector<double> range;   ///< (low, high) of the colours; empty: that of the values
+      background{1, 1, 1, 1};                     ///< alpha 0: a transparent background
+  bool rod_chosen = false, joint_chosen = false;  ///< the user chose these colours
+  ColourMap map = nullptr;                        ///< null: that of the quantity
+  std::vector<double> range;  ///< (low, high) of the colours; empty: that of the values
   bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true,
        ghost = true, supports = true;
   bool clamped = false;                             ///< the supports prescribe directions
@@ -68,6 +69,6 @@ DrawQuality draw_quality(const MovieStyle& style);
 /// The title card before a movie, of the movie's size, with its title and, if there are any,
 /// description, parameters and source below. Long titles have several lines and are set smaller
 /// until they fit.
-Image title_card(const MovieStyle& style);
+Result<Image> title_card(const MovieStyle& style);
 
 }  // namespace gridshell::render

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 namespace gridshell::render {
 namespace {
@@ -100,7 +101,7 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
 
 ComparisonVerdict compare_versions(const PicturePair& pair, double threshold) {
   if (!pair.before) return {false, "is new", {}};
-  if (!pair.after) return {false, "is gone", {}};
+  if (!pair.after) return {false, "is missing", {}};
   const auto worst = compare(*pair.before, *pair.after);
   if (!worst) return {false, worst.error().message, {}};
   const bool same = worst->same(threshold);
@@ -110,11 +111,19 @@ ComparisonVerdict compare_versions(const PicturePair& pair, double threshold) {
           *worst};
 }
 
-Image contact_sheet(const std::vector<PicturePair>& pairs, double threshold, double cell_width) {
+Result<Image> contact_sheet(const std::vector<PicturePair>& pairs, double threshold,
+                            double cell_width) {
   double height = margin + line;
   for (const PicturePair& pair : pairs) height += line + cell_height(pair, cell_width) + margin;
   const double width = margin + 3 * (cell_width + margin);
-  return draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+  constexpr double least_scale = 0.3;
+  const double scale = std::min(1.0, std::floor(largest_side / height * 1e3) / 1e3);
+  if (scale < least_scale)
+    return invalid(
+        "--difference: a sheet of {} pictures is {:.0f} pixels high, expected at most "
+        "{:.0f}: compare fewer at once",
+        pairs.size(), height, largest_side / least_scale);
+  return draw_picture(width, height, scale, {1, 1, 1, 1}, [&](Canvas& canvas) {
     int column = 0;
     for (const char* head : {"before", "after", "difference"})
       canvas.text(head, {margin + column++ * (cell_width + margin), margin + line / 4},

@@ -54,8 +54,9 @@ struct ComparisonVerdict {
 ComparisonVerdict compare_versions(const PicturePair& pair, double threshold);
 
 /// A picture with one row per pair: before, after and the difference, each scaled into a cell of
-/// `cell_width` pixels, with name and verdict above.
-Image contact_sheet(const std::vector<PicturePair>& pairs, double threshold,
-                    double cell_width = 480);
+/// `cell_width` pixels, with name and verdict above. A sheet too high for a picture is drawn
+/// smaller. Errors: Fault::bad_input for more pairs than remain legible so.
+Result<Image> contact_sheet(const std::vector<PicturePair>& pairs, double threshold,
+                            double cell_width = 480);
 
 }  // namespace gridshell::render

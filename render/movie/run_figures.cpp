@@ -76,14 +76,6 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
   return figure;
 }
 
-/// A round number above `largest`, so that the last label of the colour bar is its end.
-double round_end(double largest) {
-  const double power = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9))));
-  for (const double leading : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
-    if (largest <= leading * power) return leading * power;
-  return 10 * power;
-}
-
 /// The colour keys of draw_over_nets().
 std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
@@ -206,7 +198,8 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
     largest = std::max(largest, unit.factor * last_deviation(*one.run).maxCoeff());
-  const ColourScale scale{sequential, 0, round_end(largest), 0.2};
+  // a round end has the last label of the colour bar
+  const ColourScale scale{sequential, 0, nice_ceiling(std::max(largest, 1e-9)), 0.2};
   const auto dress = [&](const NetRun& one, Drawing& drawing) {
     const Eigen::VectorXd deviation = last_deviation(*one.run);
     for (double fraction : deviation) drawing.node_colours.push_back(scale(unit.factor * fraction));
@@ -267,7 +260,7 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     plot.y.low = low;
     plot.y.high = high;
   }
-  return write_plots(stem, std::move(plots), title, "K of the cells in bins of x/L", print);
+  return write_plots(stem, std::move(plots), title, "K□ of the cells in bins of x/L", print);
 }
 
 Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,

@@ -272,7 +272,7 @@ Result<void> write_footprints(const std::filesystem::path& stem, const std::vect
 
 Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
                   const Eigen::Vector3d& end, const std::string& title) {
-  Series net = line_series("the net as far as it comes, from above", {0.45f, 0.5f, 0.55f, 1}, 0.5);
+  Series net = line_series("the net up to where it ends", {0.45f, 0.5f, 0.55f, 1}, 0.5);
   for (const auto& line : lines) {
     for (const auto& p : line.colwise()) net.add(p.x(), p.y());
     net.part();
@@ -281,7 +281,7 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
       mark_series("rods within 17° of parallel", {0.93f, 0.6f, 0.2f, 1}, Marker::circle, 1.8);
   for (const auto& p : narrow.colwise()) close.add(p.x(), p.y());
   Series place = mark_series(
-      fmt::format("it ends at *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z())),
+      fmt::format("end of the net, *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z())),
       {0.75f, 0.1f, 0.15f, 1}, Marker::cross, 8);
   place.add(end.x(), end.y());
   Plot plot;

@@ -161,8 +161,13 @@ void ColouredRange::take(const Eigen::VectorXd& values, bool counts) {
   for (const double value : values) all.take(value);
   if (!counts) return;
   const Eigen::ArrayXd known = values.array().isFinite().select(values.array(), 0.0);
-  if (most.size() != known.size()) most = Eigen::ArrayXd::Zero(known.size());
-  most = most.max(known.abs());
+  // frames on a finer mesh have more values
+  const Eigen::Index before = most.size();
+  if (before < known.size()) {
+    most.conservativeResize(known.size());
+    most.tail(known.size() - before).setZero();
+  }
+  most.head(known.size()) = most.head(known.size()).max(known.abs());
 }
 
 FrameSource source_of(const record::Trajectory& run) {

@@ -76,8 +76,9 @@ struct Interval {
 /// scale, except for the deviation from the net: only those of largest actuation, since a flat
 /// shell deviates by its size.
 struct ColouredRange {
-  Eigen::ArrayXd most;  ///< per cell or node the largest magnitude in the frames that count
-  Interval all;         ///< of all known values
+  /// Per index of a cell or node the largest magnitude in the frames that count, on all meshes.
+  Eigen::ArrayXd most;
+  Interval all;  ///< of all known values
 
   void take(const Eigen::VectorXd& values, bool counts);
 };

@@ -254,16 +254,6 @@ class Lines {
 
 }  // namespace
 
-std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
-                                const Eigen::Matrix3Xd& points, double slack_mm) {
-  const Eye eye(camera, {0, 0, 1000, 1000});
-  const Screen screen(drawing, eye);
-  std::vector<bool> hidden;
-  for (long k = 0; k < points.cols(); ++k)
-    hidden.push_back(screen.hides(eye(points.col(k)), slack_mm));
-  return hidden;
-}
-
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing,
                       const Camera& camera) {
   Lines lines(canvas, box, drawing, camera);

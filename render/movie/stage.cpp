@@ -142,12 +142,10 @@ Result<void> check_frame(const record::Layout& layout, const record::Frame& fram
                          const MovieStyle& style) {
   const long nodes = node_count_of(layout), cells = long(layout.cells.size());
   if (frame.nodes.cols() < nodes || !frame.nodes.allFinite())
-    return invalid(
-        "frame {} of the run has {} nodes where {} with finite positions are "
-        "needed",
-        at, frame.nodes.cols(), nodes);
+    return invalid("frame {} of the run: got {} nodes, expected {} with finite positions", at,
+                   frame.nodes.cols(), nodes);
   if (by_K(style.colour_by) && frame.cell_K.size() != cells)
-    return invalid("frame {} of the run has K of {} cells instead of {}", at, frame.cell_K.size(),
+    return invalid("frame {} of the run: got K of {} cells, expected {}", at, frame.cell_K.size(),
                    cells);
   return {};
 }
@@ -241,7 +239,8 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   if (look.rod_mm == 0 && run_.laths_mm.empty() && look.lath_width_mm > 0)
     for (std::size_t r = 0; r < run_.rods.size(); ++r)
       drawing.laths_mm.insert(drawing.laths_mm.end(), {look.lath_width_mm, look.lath_thickness_mm});
-  if (!drawing.laths_mm.empty() && look.rod == Appearance{}.rod) drawing.rod_colour = lath_ink;
+  if (!drawing.laths_mm.empty() && !look.rod_chosen && look.rod == Appearance{}.rod)
+    drawing.rod_colour = lath_ink;
   drawing.joint_diameter_mm =
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
   // the bolts of laths are narrower than the laths
@@ -250,7 +249,8 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.cell_colours = cell_colours(frame);
   drawing.node_colours = node_colours(frame);
   // a red joint would look like tension
-  if (style_.colour_by == ColourBy::axial_force && look.joint == Appearance{}.joint)
+  if (style_.colour_by == ColourBy::axial_force && !look.joint_chosen &&
+      look.joint == Appearance{}.joint)
     drawing.joint_colour = look.rod;
   // rods are wider so that their colours are visible
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;

@@ -99,11 +99,6 @@ class Stage {
 
 // Shells as lines (vector graphics), in which parts behind cells are faded.
 
-/// Whether each point is hidden from the camera: a cell of the drawing (two triangles between its
-/// four joints) is in front of it by more than `slack_mm`.
-std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
-                                const Eigen::Matrix3Xd& points, double slack_mm);
-
 /// Draws rods, rings, ghosts, joints, marks and arrows of `drawing` into a box of the canvas as the
 /// camera sees them. Hidden ones are drawn first, faded by the larger of 0.55 and the drawing's
 /// far_fade; at a far_fade of 1 they are left out.

@@ -106,7 +106,21 @@ Subprocess::~Subprocess() {
   close_one(stdin_pipe_);
   close_one(stderr_pipe_);
   if (child_ < 0) return;
+  stop();
+}
+
+/// Ends the program: by SIGTERM, and by SIGKILL if it still runs two seconds later.
+void Subprocess::stop() {
+  constexpr int tests = 200, between_ms = 10;
   ::kill(child_, SIGTERM);
+  for (int k = 0; k < tests; ++k) {
+    if (::waitpid(child_, nullptr, WNOHANG) == child_) {
+      child_ = -1;
+      return;
+    }
+    ::poll(nullptr, 0, between_ms);
+  }
+  ::kill(child_, SIGKILL);
   wait();
 }
 
@@ -152,11 +166,10 @@ int Subprocess::wait() {
 
 Result<void> Subprocess::end(const Watch& watch, const LineListener& heard) {
   close_one(stdin_pipe_);
-  bool reported = false;
   for (;;) {
-    if (watch.cancelled() && !reported) {
-      ::kill(child_, SIGTERM);
-      reported = true;
+    if (watch.cancelled()) {
+      stop();
+      return fail(Fault::cancelled, "stopped {}", name_);
     }
     pollfd waiting{stderr_pipe_, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, poll_ms);

@@ -43,6 +43,7 @@ class Subprocess {
       : name_(std::move(name)), child_(child), stdin_pipe_(input), stderr_pipe_(words) {}
   bool listen(const LineListener& heard);
   int wait();
+  void stop();
 
   std::string name_;
   pid_t child_ = -1;

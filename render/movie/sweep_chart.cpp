@@ -43,7 +43,7 @@ struct SweepMark {
 /// The runs of one case in the picture.
 struct Curve {
   std::vector<SweepMark> spots;
-  std::vector<double> lost;  // x of runs without the figure
+  std::vector<double> lost;  // x of runs without a state
 };
 
 Curve curve_of(const SweepTable& table, const SweepScale& scale, const SweepView& view,
@@ -59,7 +59,7 @@ Curve curve_of(const SweepTable& table, const SweepScale& scale, const SweepView
     const bool unstable = stable && record::number_of(*stable) == 0;
     if (std::isfinite(x) && std::isfinite(y))
       curve.spots.push_back({x, y, place, limit_of(row), !unstable});
-    else if (std::isfinite(x))
+    else if (std::isfinite(x) && row.result.outcome != record::PointOutcome::done)
       curve.lost.push_back(x);
   }
   return curve;
@@ -176,8 +176,8 @@ void mark_departure(const Series& curve, Colour colour, double fraction, Plot& p
   const Stroke stroke{colour, 0.8, {3, 2}};
   plot.references.push_back({.horizontal = false, .at = *at, .label = "", .stroke = stroke});
   plot.series.push_back(
-      line_series(fmt::format("{:g} % off at {}", 100 * fraction, scientific(*at, 2)), colour,
-                  stroke.width, stroke.dash));
+      line_series(fmt::format("differs by {:g} % at {}", 100 * fraction, scientific(*at, 2)),
+                  colour, stroke.width, stroke.dash));
 }
 
 }  // namespace
@@ -188,7 +188,7 @@ std::string label_of(const std::string& name) {
       {"mean_deviation", "mean deviation from the net over *ρ*"},
       {"largest_strain", "largest axial strain, by size"},
       {"stiffness_ratio", "*EA* *d*^{2}/*EI*"},
-      {"total_K", "total *K* (rad)"},
+      {"total_K", "total *K*_{□} (rad)"},
       {"energy_bend_mJ", "bending energy (mJ)"},
       {"energy_stretch_mJ", "stretching energy (mJ)"},
       {"energy_twist_mJ", "torsional energy (mJ)"},
@@ -199,7 +199,7 @@ std::string label_of(const std::string& name) {
       {"energy_contact_mJ", "energy of contact (mJ)"},
       {"actuation.ratio", "*R*_{a}/*R*_{o}"},
       {"footprint.longest_leg", "longest leg *L̄*_{d}, in *d*"},
-      {"footprint.rods", "rods in each direction *n*"},
+      {"footprint.rods", "rods per direction *n*"},
       {"rod.young_GPa", "Young's modulus *E* (GPa)"},
       {"actuation.radius_mm", "*R*_{a} (mm)"},
       {"footprint.radius_mm", "*R*_{o} (mm)"},

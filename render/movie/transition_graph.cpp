@@ -87,7 +87,7 @@ class TransitionGraph {
     draw_names(canvas, frame.inside.inset(2));
     for (std::size_t k = 0; k < disturbed_.size(); ++k) draw_thumb(canvas, k, box.bottom());
     canvas.text(
-        "back: how often to the state itself; new: how often to one that the search had not met",
+        "back: returned to itself; new: not in the library (times)",
         {0.5 * width, height() - margin},
         {.size = font - 1, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::bottom});
   }

@@ -324,7 +324,7 @@ TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
   CHECK(summary["energy_load_mJ"].is_null());
   CHECK(summary["finished"] == true);
   check_refused("render old --set movie.colour_by=axial_force", bench.at,
-                Contains("no frame of the run knows the rods' axial forces"));
+                Contains("the run has no axial forces of its rods"));
   bench.good("run small.toml -o old");
   CHECK(fs::exists(bench.at / "old/manifest.txt"));
 }

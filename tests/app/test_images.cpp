@@ -172,12 +172,12 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
     return gridshell_program(more, folder);
   };
   const Ended selected = compare({"--selected"});
-  CHECK_THAT(selected.out, Contains("gone.png: is gone") && !Contains("new.png"));
+  CHECK_THAT(selected.out, Contains("gone.png: is missing") && !Contains("new.png"));
   CHECK_THAT(selected.out, Contains("2 of 3 pictures differ"));
   const Ended first = compare({"--difference", "sheet.png"});
   CHECK(first.code == 3);
   CHECK_THAT(first.out,
-             Contains("in/other.png: differs by 110.00") && Contains("gone.png: is gone"));
+             Contains("in/other.png: differs by 110.00") && Contains("gone.png: is missing"));
   CHECK_THAT(first.out, Contains("new.png: is new") && !Contains("same.png") &&
                             Contains("3 of 4 pictures differ"));
   const auto sheet = value_of(render::read_png(folder / "sheet.png"));

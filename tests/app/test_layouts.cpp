@@ -42,7 +42,7 @@ record::Trajectory eventful(bool pushed) {
 
 /// Draws, and checks that no text overlaps another or a marker, or leaves the picture.
 void check_words(double width, double height, const DrawOn& draw) {
-  draw_picture(width, height, 1, {}, [&](Canvas& canvas) {
+  (void)draw_picture(width, height, 1, {}, [&](Canvas& canvas) {
     draw(canvas);
     test::check_apart(canvas, true);
   });

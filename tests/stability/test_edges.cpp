@@ -151,3 +151,15 @@ TEST_CASE("stability: the judge distinguishes states, whatever a method says") {
   admitted.x = problem.end.x;
   CHECK(verdict_of(*study, admitted, near, near, Watch()) == RunOutcome::blow_up);
 }
+
+TEST_CASE("stability: what cells share is made under a watch, and ends when it is cancelled") {
+  Cells cells = joint_map(small_case(), {1}, {3}, 1);
+  for (Cell& cell : stiffness_map(paper_circle(4, 0.85), {1}, {3}, 1))
+    cells.push_back(std::move(cell));
+  for (Cell& cell : cells) {
+    Watch stopped;
+    stopped.cancel();
+    cell.prepare(stopped);
+    CHECK(cell.run(Watch()) == RunOutcome::refused);
+  }
+}

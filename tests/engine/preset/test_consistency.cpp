@@ -222,3 +222,9 @@ TEST_CASE("utilisation needs a strength, which is said once") {
                        "max_utilisation = 0.8\n"),
              Catch::Contains("and of [rod_v] where it differs"));
 }
+
+TEST_CASE("a figure with more pixels than a picture can have is refused") {
+  CHECK_THAT(errors_of("[figure]\nwidth_mm = 3000\n"),
+             Catch::Contains("[figure] width_mm") && Catch::Contains("35433 pixels"));
+  CHECK(errors_of("[figure]\nwidth_mm = 3000\ndpi = 250\n") == "none");
+}

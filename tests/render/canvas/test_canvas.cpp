@@ -33,7 +33,7 @@ TEST_CASE("the ink box of a text is where its ink is, however it is aligned and 
     for (AlignX x : {AlignX::left, AlignX::centre, AlignX::right})
       for (AlignY y : {AlignY::top, AlignY::middle, AlignY::baseline, AlignY::bottom}) {
         Box said;
-        const Image image = draw_picture(300, 300, 1, white, [&](Canvas& canvas) {
+        const Image image = *draw_picture(300, 300, 1, white, [&](Canvas& canvas) {
           said = canvas.text("*K*_{□} = 10^{−3} gÅ", {150, 150},
                              {.size = 16, .align_x = x, .align_y = y, .angle_deg = angle});
         });
@@ -47,10 +47,10 @@ TEST_CASE("the ink box of a text is where its ink is, however it is aligned and 
 
 TEST_CASE("text scales with the canvas and not with the pixels") {
   Box small, large;
-  draw_picture(200, 50, 1, white, [&](Canvas& c) {
+  (void)draw_picture(200, 50, 1, white, [&](Canvas& c) {
     small = c.text("10^{−3} mm_{a}", {5, 30}, {});
   });
-  draw_picture(200, 50, 4, white, [&](Canvas& c) {
+  (void)draw_picture(200, 50, 4, white, [&](Canvas& c) {
     large = c.text("10^{−3} mm_{a}", {5, 30}, {});
   });
   CHECK(large.width == Approx(small.width).epsilon(0.01));
@@ -59,7 +59,7 @@ TEST_CASE("text scales with the canvas and not with the pixels") {
 
 TEST_CASE("sub- and superscripts are smaller, lower and higher") {
   Box base, low, high;
-  draw_picture(200, 60, 1, white, [&](Canvas& c) {
+  (void)draw_picture(200, 60, 1, white, [&](Canvas& c) {
     base = c.text("x", {5, 40}, {.size = 20});
     low = c.text("_{x}", {50, 40}, {.size = 20});
     high = c.text("^{x}", {90, 40}, {.size = 20});
@@ -71,7 +71,7 @@ TEST_CASE("sub- and superscripts are smaller, lower and higher") {
 
 TEST_CASE("every letter the plots need has a glyph") {
   const auto ink = [](const std::string& letter) {
-    const Image image = draw_picture(120, 120, 1, white, [&](Canvas& c) {
+    const Image image = *draw_picture(120, 120, 1, white, [&](Canvas& c) {
       c.text(letter, {40, 80}, {.size = 40});
     });
     return ink_box(image);
@@ -92,7 +92,7 @@ TEST_CASE("every letter the plots need has a glyph") {
 }
 
 TEST_CASE("text that is no UTF-8 or empty is no crash") {
-  draw_picture(60, 60, 1, white, [](Canvas& c) {
+  (void)draw_picture(60, 60, 1, white, [](Canvas& c) {
     c.text("\xff\xfe broken", {5, 20}, {});
     c.text("", {5, 40}, {});
     CHECK(c.shortened("\xff\xff\xff\xff\xff\xff", 5, {}).size() <= 6);
@@ -100,7 +100,7 @@ TEST_CASE("text that is no UTF-8 or empty is no crash") {
 }
 
 TEST_CASE("a text is shortened to its room") {
-  draw_picture(100, 60, 1, white, [](Canvas& c) {
+  (void)draw_picture(100, 60, 1, white, [](Canvas& c) {
     const TextStyle style{.size = 12};
     const std::string title = "Actuation of a_circular *gridshell* δδδδ";
     CHECK(c.shortened(title, 1000, style) == title);
@@ -135,7 +135,7 @@ TEST_CASE("a picture within a picture keeps its colours") {
   for (std::size_t k = 0; k < inner.rgba.size(); k += 4) {
     inner.rgba[k] = 200, inner.rgba[k + 1] = 100, inner.rgba[k + 2] = 50, inner.rgba[k + 3] = 255;
   }
-  const Image image = draw_picture(30, 30, 1, white, [&](Canvas& c) {
+  const Image image = *draw_picture(30, 30, 1, white, [&](Canvas& c) {
     c.picture(inner, {5, 5, 10, 10});
   });
   CHECK(int(image.pixel(10, 10)[0]) == 200);
@@ -194,7 +194,8 @@ TEST_CASE("characters that XML forbids do not break an SVG") {
 TEST_CASE("the font is chosen by name, and one that is not there is refused") {
   const auto width = [] {
     double wide = 0;
-    draw_picture(1, 1, 1, white, [&](Canvas& c) { wide = c.measure("iiii", {.size = 12}).width; });
+    (void)draw_picture(1, 1, 1, white,
+                       [&](Canvas& c) { wide = c.measure("iiii", {.size = 12}).width; });
     return wide;
   };
   const double usual = width();
@@ -217,7 +218,7 @@ TEST_CASE("a canvas knows where its words and markers are, however it is enlarge
       texts = c.text_boxes();
       markers = c.marker_boxes();
     });
-    draw_picture(100, 100, 1, white, [](Canvas& c) {
+    (void)draw_picture(100, 100, 1, white, [](Canvas& c) {
       c.enlarged(2, [&] {
         c.text("wide", {10, 20}, {.size = 10});
         c.clipped({20, 20, 20, 20}, [&] {
@@ -233,6 +234,43 @@ TEST_CASE("a canvas knows where its words and markers are, however it is enlarge
   REQUIRE(markers.size() == 1);
   CHECK(markers[0].x == Approx(56));
   CHECK(markers[0].width == Approx(8));
-  draw_picture(9, 9, 1, white, [](Canvas& c) { c.text("unwatched", {1, 8}, {}); });
+  (void)draw_picture(9, 9, 1, white, [](Canvas& c) { c.text("unwatched", {1, 8}, {}); });
   CHECK(texts.size() == 1);
+}
+
+TEST_CASE("a picture too wide for Cairo is refused, one drawn in another is thinned") {
+  const DrawOn nothing = [](Canvas&) {};
+  CHECK(refusal(draw_picture(70, 1, 500, white, nothing)) ==
+        "size of the picture: got 35000 x 500 pixels, expected 1 to 32767 each");
+  const TemporaryFolder folder;
+  CHECK(refusal(write_figure(folder / "wide", 100, 1, "", nothing, {3000, 300})) != "none");
+  CHECK(folder.entries().empty());
+  Image wide(40000, 2);
+  for (std::size_t k = 0; k < wide.rgba.size(); ++k)
+    wide.rgba[k] = k % 4 == 0 || k % 4 == 3 ? 255 : 0;
+  const Image image = *draw_picture(20, 20, 1, white, [&](Canvas& c) {
+    c.picture(wide, {0, 0, 20, 20});
+  });
+  CHECK(int(image.pixel(10, 10)[0]) == 255);
+  CHECK(int(image.pixel(10, 10)[1]) < 20);
+}
+
+TEST_CASE("text that is not UTF-8 is replaced in all of an SVG") {
+  const std::string svg = draw_svg(144, 72, "run \xff", [](Canvas& c) {
+    c.text("*a* \xff\xfe*b*", {10, 30}, {});
+  });
+  CHECK(svg.find('\xff') == std::string::npos);
+  CHECK(svg.find("font-style=\"oblique\">b</tspan>") != std::string::npos);
+  CHECK(well_formed(svg));
+}
+
+TEST_CASE("text with markup is broken by the width of its letters") {
+  (void)draw_picture(200, 60, 1, white, [](Canvas& c) {
+    const TextStyle style{.size = 10};
+    const std::string marked = "*a*_{1} *b*_{2}", plain_text = "*a* _{b} \\c";
+    CHECK(c.wrapped_marked(marked, 1.01 * c.measure(marked, style).width, style).size() == 1);
+    CHECK(c.wrapped_marked(marked, 0.99 * c.measure(marked, style).width, style).size() == 2);
+    CHECK(c.wrapped(plain_text, 1000, style) == std::vector{plain_text});
+    CHECK(c.wrapped(plain_text, 1, style).size() == 3);
+  });
 }

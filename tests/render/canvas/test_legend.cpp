@@ -12,7 +12,7 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
     const Box box{10, 10, 0, 16 * font};
     std::vector<std::string> texts;
     Box room = box;
-    const Image image = draw_picture(12 * font, 20 * font, 1, white, [&](Canvas& c) {
+    const Image image = *draw_picture(12 * font, 20 * font, 1, white, [&](Canvas& c) {
       room.width = colour_bar_width(c, bar, font);
       draw_colour_bar(c, room, bar, font);
       texts = c.texts();
@@ -41,7 +41,7 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
 TEST_CASE("the ends of a scale that are not round have ticks where requested") {
   ColourBar bar{"*F* (N)", {diverging, -0.83, 0.83}};
   bar.ends = true;
-  draw_picture(200, 300, 1, white, [&](Canvas& c) {
+  (void)draw_picture(200, 300, 1, white, [&](Canvas& c) {
     draw_colour_bar(c, {10, 10, 100, 250}, bar, 14);
     for (const std::string text : {"0.83", "−0.83", "0.5", "0.0"})
       CHECK(std::ranges::count(c.texts(), text) == 1);
@@ -57,7 +57,7 @@ TEST_CASE("sign, ticks and words of a colour bar do not overlap, on any scale an
           const ColourBar bar{
               "*K*_{□} (rad)", {diverging, low, end}, true, true, "Gauss curvature", ends};
           INFO(low << " to " << end << ", font " << font << ", " << lines << " lines");
-          draw_picture(20 * font, lines * font + 20, 1, white, [&](Canvas& c) {
+          (void)draw_picture(20 * font, lines * font + 20, 1, white, [&](Canvas& c) {
             const Box box{10, 10, colour_bar_width(c, bar, font), lines * font};
             draw_colour_bar(c, box, bar, font);
             const std::vector<Box>& words = c.text_boxes();
@@ -71,7 +71,7 @@ TEST_CASE("sign, ticks and words of a colour bar do not overlap, on any scale an
 }
 
 TEST_CASE("a scale bar is as long as it says") {
-  const Image image = draw_picture(200, 40, 1, white, [](Canvas& c) {
+  const Image image = *draw_picture(200, 40, 1, white, [](Canvas& c) {
     CHECK(draw_scale_bar(c, {0, 0, 200, 40}, 20, 4.5, 12));
     CHECK(c.texts().at(0) == "20 mm");
   });
@@ -81,7 +81,7 @@ TEST_CASE("a scale bar is as long as it says") {
 }
 
 TEST_CASE("a scale bar that does not fit is not drawn at all") {
-  const Image image = draw_picture(60, 40, 1, white, [](Canvas& c) {
+  const Image image = *draw_picture(60, 40, 1, white, [](Canvas& c) {
     CHECK_FALSE(draw_scale_bar(c, {0, 0, 60, 40}, 20, 4.5, 12));
     CHECK_FALSE(draw_scale_bar(c, {0, 0, 60, 4}, 2, 4.5, 12));
     CHECK_FALSE(draw_scale_bar(c, {0, 0, 60, 40}, 20, 0, 12));
@@ -93,7 +93,7 @@ TEST_CASE("colour keys are in the middle of their row, all of them, smaller wher
   const std::vector<ColourKey> keys{{{0.8f, 0.1f, 0.1f, 1}, "shell at rest"},
                                     {{0.1f, 0.2f, 0.8f, 1}, "its net"}};
   for (const double width : {300.0, 120.0}) {
-    const Image image = draw_picture(width, 40, 1, white, [&](Canvas& c) {
+    const Image image = *draw_picture(width, 40, 1, white, [&](Canvas& c) {
       draw_colour_keys(c, {4, 4, width - 8, 32}, keys, 14);
       CHECK(c.texts() == std::vector<std::string>{"shell at rest", "its net"});
     });

@@ -69,14 +69,14 @@ using Look = std::function<void(const Canvas&)>;
 Image drawn(
     const Plot& plot, double width, double height,
     const Look& look = [](const Canvas& canvas) { test::check_apart(canvas); }) {
-  return draw_picture(width, height, 2, white, [&](Canvas& canvas) {
+  return *draw_picture(width, height, 2, white, [&](Canvas& canvas) {
     draw_plot(canvas, Box{0, 0, width, height}.inset(2), plot);
     look(canvas);
   });
 }
 
 void laid_out(const Plot& plot, const std::function<void(Canvas&, const PlotFrame&)>& look) {
-  draw_picture(300, 200, 1, white, [&](Canvas& canvas) {
+  (void)draw_picture(300, 200, 1, white, [&](Canvas& canvas) {
     look(canvas, lay_out_plot(canvas, {0, 0, 300, 200}, plot));
   });
 }
@@ -158,4 +158,16 @@ TEST_CASE("gaps, empty series and single points are drawn without complaint") {
   CHECK(test::rim_is_white(drawn(Plot{}, 250, 180)));
   // far too small: nothing, rather than something wrong
   CHECK(test::ink_box(drawn(energies(), 20, 12, [](const Canvas&) {}), 0).empty());
+}
+
+TEST_CASE("a name of the legend is no smaller than a fifth, however narrow the plot") {
+  Plot plot = energies();
+  (void)draw_picture(400, 300, 1, white, [&](Canvas& canvas) {
+    draw_legend(canvas, {0, 0, 8, 100}, plot);
+    REQUIRE_FALSE(canvas.text_boxes().empty());
+    for (const Box& box : canvas.text_boxes()) {
+      CHECK(box.height > 0);
+      CHECK(box.height < 0.5 * plot.font_size);
+    }
+  });
 }

@@ -95,6 +95,18 @@ TEST_CASE("a cell's sheet ends on its rods", "[skin]") {
   }
 }
 
+TEST_CASE("a third rod through a cell's corners leaves its sides as they are", "[skin]") {
+  auto shell = test::square_shell(2, 4, 50);
+  const std::vector<Eigen::Vector4f> colours{{1, 0, 0, 1}};
+  Mesh two, three;
+  add_cell_patches(two, shell.layout, shell.nodes, colours, 0);
+  shell.layout.rods.insert(shell.layout.rods.begin(), {0, 3});
+  add_cell_patches(three, shell.layout, shell.nodes, colours, 0);
+  REQUIRE(three.vertices.size() == two.vertices.size());
+  for (std::size_t k = 0; k < two.vertices.size(); ++k)
+    CHECK(three.vertices[k].position == two.vertices[k].position);
+}
+
 TEST_CASE("cells without alpha are left out", "[skin]") {
   const auto shell = test::square_shell(4, 1, 50);
   const std::size_t count = shell.layout.cells.size();

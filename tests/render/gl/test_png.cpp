@@ -110,3 +110,10 @@ TEST_CASE("a damaged file is bad input, not a crash") {
   std::ofstream(path, std::ios::binary | std::ios::trunc);
   CHECK_FALSE(read_png(path));
 }
+
+TEST_CASE("a picture that would not be read back is not written") {
+  Image image;
+  image.width = image.height = 20000;
+  CHECK(refusal(encode_png(image)) ==
+        "size of the picture: got 20000 x 20000 pixels, expected at most 268 million");
+}

@@ -159,9 +159,10 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   const auto message = [&](const Drawing& d, const DrawQuality& quality, int width, int height) {
     return refusal(studio.renderer->draw(d, {}, quality, width, height));
   };
-  CHECK(message(drawing, {}, 0, 100) == "size: got 0 x 100 pixels, expected 1 to 65536 each");
-  CHECK(message(drawing, {0, true, 1}, 9, 9) == "supersample = 0: 1 to 16");
-  CHECK(message(drawing, {1, true, 0}, 9, 9) == "jittered_passes = 0: 1 to 4096");
+  CHECK(message(drawing, {}, 0, 100) ==
+        "size: got 0 x 100 pixels, expected 1 to 32767 each and at most 268 million");
+  CHECK(message(drawing, {0, true, 1}, 9, 9) == "supersample: got 0, expected 1 to 16");
+  CHECK(message(drawing, {1, true, 0}, 9, 9) == "jittered_passes: got 0, expected 1 to 4096");
   CHECK(message(Drawing{}, {}, 9, 9) == "the drawing has no layout");
   Drawing wrong = drawing;
   wrong.nodes(1, 3) = std::nan("");

@@ -146,3 +146,23 @@ TEST_CASE("rods of other diameters are drawn thicker and thinner in proportion",
   CHECK(widths[30] == 2 * points);
   CHECK(widths[15] >= 2 * points * (int(layout.rods.size()) - 1));
 }
+
+TEST_CASE("arrows, marks, cells and upper rods that cannot be drawn are refused", "[scene]") {
+  test::SquareShell shell = test::square_shell(3, 2);
+  const Drawing good = test::square_drawing(shell);
+  const auto message = [](const Drawing& drawing) {
+    return gridshell::refusal(make_scene(drawing, {}, 0.3));
+  };
+  REQUIRE(message(good) == "none");
+  Drawing wrong = good;
+  wrong.arrows.push_back({{0, 0, NAN}, {0, 0, 1}, 1, {}});
+  CHECK(message(wrong) == "the drawing has an arrow that is not finite");
+  wrong = good;
+  wrong.marks.push_back({{0, 0, NAN}, 4, {}});
+  CHECK(message(wrong) == "the drawing has a mark that is not finite");
+  shell.layout.above.assign(shell.layout.joints.size(), 1000);
+  CHECK(message(good) == "the drawing has an upper rod outside its 21 nodes");
+  shell.layout.above.clear();
+  shell.layout.cells[0].joints[2] = 9;
+  CHECK(message(good) == "the drawing has cell (0, 0) outside its 9 joints");
+}

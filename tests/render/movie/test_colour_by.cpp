@@ -27,7 +27,8 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
     CHECK(bool(check_coloured(summarise_run(run), style)) == bool(checked));
     return checked ? "" : checked.error().message;
   };
-  CHECK(lacks(ColourBy::axial_force).find("[movie] colour_by = \"axial_force\": no frame") == 0);
+  CHECK(lacks(ColourBy::axial_force)
+            .find("[movie] colour_by = \"axial_force\": the run has no axial forces") == 0);
   CHECK(lacks(ColourBy::energy).find("bending energy") != std::string::npos);
   CHECK(lacks(ColourBy::deviation).find("no net") != std::string::npos);
   run.layout.net_nodes = run.frames[0].nodes;
@@ -45,8 +46,7 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
 TEST_CASE("rods are coloured by the angles of their joints, from the least on") {
   record::Trajectory run = synthetic::dome(3, 2);
   const MovieStyle style = coloured(ColourBy::joint_angle);
-  CHECK(check_showable(run, style).error().message.find("no joint of the run") !=
-        std::string::npos);
+  CHECK(check_showable(run, style).error().message.find("no joint has") != std::string::npos);
   Eigen::VectorXd& angles = run.frames.edit()[2].angle_deg;
   angles.setLinSpaced(Eigen::Index(run.layout.joints.size()), 60, 80);
   const Stage stage(run, style);

@@ -43,7 +43,7 @@ fs::path six_frames(const fs::path& folder, const std::string& title = "") {
   style.size = {64, 49};
   style.title = title;
   REQUIRE(make_folder(folder / "frames"));
-  REQUIRE(write_png(title_card(style), folder / "title.png"));
+  REQUIRE(write_png(value_of(title_card(style)), folder / "title.png"));
   for (int k = 0; k < 6; ++k) REQUIRE(write_png(shade(k), folder / "frames" / frame_name(k)));
   return folder / "frames";
 }
@@ -120,6 +120,13 @@ TEST_CASE("a cancel ends ffmpeg before its time") {
   check_cancelled(
       [&](Watch& watch) { return encode_movie("frames", {}, folder / "movie.mp4", watch); });
   CHECK(folder.entries().empty());
+}
+
+TEST_CASE("a cancel ends an ffmpeg that does not listen to it") {
+  const FakeFfmpeg deaf("trap '' TERM\nexec /bin/sleep 30\n");
+  const TemporaryFolder folder;
+  check_cancelled(
+      [&](Watch& watch) { return encode_movie("frames", {}, folder / "movie.mp4", watch); });
 }
 
 TEST_CASE("a shell reads the words back as they were") {

@@ -52,3 +52,12 @@ TEST_CASE("a summary knows how far the means of the bins move") {
   CHECK(summary.bins_change_rad.high == Approx(0.02));
   CHECK(summary.bins_change_rad.low == Approx(-0.008));
 }
+
+TEST_CASE("a frame on another mesh does not make earlier ones forgotten") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  run.frames.edit()[0].cell_K[7] = 9;
+  run.frames.edit()[1].cell_K.conservativeResize(5);
+  const RunSummary summary = summarise_run(run);
+  CHECK(summary.spread(ColourBy::K).most.maxCoeff() == 9);
+  CHECK(summary.spread(ColourBy::K).most.size() == run.frames[0].cell_K.size());
+}

@@ -134,3 +134,56 @@ TEST_CASE("an assembly sheet says what is cut, where ends are fixed and how to a
                          Catch::Contains("Brace all 4 cells."));
   CHECK_THAT(timber, !Catch::Contains("Print the footprint at full size"));
 }
+
+TEST_CASE("names of many equal rods are broken into lines, at their usual size") {
+  exports::FabricationPlan work;
+  work.title = "A square";
+  exports::CutRod rod;
+  rod.length_mm = 260;
+  for (int k = 0; k < 600; ++k) {
+    rod.name = "u" + std::to_string(k);
+    work.rods.push_back(rod);
+  }
+  double least = 100;
+  std::size_t sheets = 0;
+  const test::CanvasObserver observer([&](const render::Canvas& canvas) {
+    if (canvas.width() < 100) return;
+    ++sheets;
+    for (std::size_t k = 0; k < canvas.texts().size(); ++k)
+      if (canvas.texts()[k].starts_with("u"))
+        least = std::min(least, canvas.text_boxes()[k].height);
+    for (const render::Box& box : canvas.text_boxes()) CHECK(box.bottom() < canvas.height());
+  });
+  CHECK(render::cut_list_pdf(work).starts_with("%PDF"));
+  CHECK(least > 5);
+  CHECK(sheets > 1);
+}
+
+TEST_CASE("an assembly sheet continues on further pages") {
+  exports::FabricationPlan work;
+  work.title = "Short legs";
+  work.spacing_mm = 20;
+  exports::CutRod rod;
+  rod.length_mm = 260;
+  rod.begin = {-130, 0}, rod.end = {130, 0};
+  rod.leg_begin_mm = rod.leg_end_mm = 1;
+  for (int k = 0; k < 600; ++k) {
+    rod.name = "u" + std::to_string(k);
+    work.rods.push_back(rod);
+  }
+  work.original_boundary.resize(2, 3);
+  work.original_boundary << -130, 130, 0, -130, -130, 130;
+  work.actuated_boundary = Eigen::Matrix3Xd::Zero(3, 3);
+  work.actuated_boundary.topRows<2>() = work.original_boundary;
+  std::string all;
+  int pages = 0;
+  const test::CanvasObserver observer([&](const render::Canvas& canvas) {
+    if (canvas.width() < 100) return;
+    ++pages;
+    for (const std::string& text : canvas.texts()) all += text + " ";
+    for (const render::Box& box : canvas.text_boxes()) CHECK(box.bottom() < canvas.height() - 30);
+  });
+  CHECK(render::assembly_sheet_pdf(work).starts_with("%PDF"));
+  CHECK(pages > 1);
+  CHECK_THAT(all, Catch::Contains("u599 (1.0 mm). Leave these joints untied"));
+}

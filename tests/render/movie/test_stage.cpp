@@ -37,7 +37,7 @@ MovieStyle coloured(ColourBy by) {
 /// The texts drawn over frame k.
 std::vector<std::string> texts_of(const Stage& stage, const record::Trajectory& run, int k) {
   std::vector<std::string> texts;
-  draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
+  (void)draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
     stage.draw_overlay(canvas, {run.frames[std::size_t(k)], k});
     texts = canvas.texts();
   });
@@ -55,7 +55,7 @@ TEST_CASE("captions, legends and view of a finished frame neither overlap nor le
        {std::pair{320, 240}, {640, 360}, {1280, 720}, {3840, 2160}, {720, 1280}, {500, 500}}) {
     const Stage stage(run, titled(width, height));
     INFO(width << " x " << height);
-    const Image image = draw_picture(width, height, 1, white, [&](Canvas& canvas) {
+    const Image image = *draw_picture(width, height, 1, white, [&](Canvas& canvas) {
       stage.draw_overlay(canvas, {run.frames[8], 8});
       test::check_apart(canvas);
       for (const Box& text : canvas.text_boxes()) CHECK_FALSE(text.overlaps(stage.layout().view));
@@ -387,10 +387,10 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   style.size[0] = 8;
   CHECK(message(run, style) == "size: got 8 x 720 pixels, expected 16 to 16384 for both");
   run.frames.edit()[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
-  CHECK(message(run, {}).find("frame 1 of the run has") == 0);
+  CHECK(message(run, {}).find("frame 1 of the run: got") == 0);
   run = synthetic::dome(3, 2);
   run.frames.edit()[2].cell_K.resize(5);
-  CHECK(message(run, {}) == "frame 2 of the run has K of 5 cells instead of 97");
+  CHECK(message(run, {}) == "frame 2 of the run: got K of 5 cells, expected 97");
   run.frames = {};
   CHECK(message(run, {}) == "the run has no frame to show");
 }

@@ -55,8 +55,8 @@ TEST_CASE(
   REQUIRE(plot.references.size() == 2);
   CHECK(plot.references[0].at > 1600);
   CHECK(plot.references[0].at < 160000);
-  CHECK(std::ranges::any_of(plot.series,
-                            [](const Series& s) { return s.name.starts_with("10 % off at "); }));
+  CHECK(std::ranges::any_of(
+      plot.series, [](const Series& s) { return s.name.starts_with("differs by 10 % at "); }));
 }
 
 TEST_CASE("the position of a departure is interpolated, from the right") {
@@ -93,7 +93,9 @@ TEST_CASE("a map: all that is written fits, cells without a state are named") {
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 9; ++j) {
         record::PointResult result;
-        if (i != 3)
+        if (i == 3)
+          result.outcome = record::PointOutcome::no_equilibrium;
+        else
           result.figures = {{"height_mm", double(i * j)}, {"limit", j == 2 ? "snap" : "none"}};
         table.rows.push_back(
             {{one, {std::to_string(100 + 2.5 * i), std::to_string(0.1 + 0.05 * j)}, 0}, result});
@@ -127,4 +129,18 @@ TEST_CASE("a law is drawn over its first key, of one key or of several") {
   const Plot two = law_plot({law}, {"height_mm", "", 0, "shells"});
   CHECK_THAT(two.x.label, Catch::Contains("diameter") && !Catch::Contains("power law"));
   CHECK(two.series[0].x == law.first_key);
+}
+
+TEST_CASE("a run that only lacks the figure is no state that was not found") {
+  SweepTable table = lines();
+  for (auto& row : table.rows) row.result.figures.emplace_back("force_N", std::monostate());
+  const Plot plot = sweep_plot(table, {.figure = "force_N"});
+  REQUIRE(test::series_named(plot, "no state found"));
+  CHECK(test::series_named(plot, "no state found")->x == std::vector<double>{4});
+  table = {{"rod.diameter_mm", "footprint.rods"}, false, false, {}};
+  table.rows.push_back({{"", {"1", "6"}, 0}, {}});
+  const TemporaryFolder folder;
+  const test::CanvasObserver watch(
+      [&](const Canvas& canvas) { CHECK_FALSE(test::has(canvas.texts(), "no state found")); });
+  REQUIRE(write_sweep_map(folder / "force", table, {.figure = "force_N"}));
 }

@@ -44,7 +44,7 @@ TEST_CASE("accuracy chart: curves, spread, front, marks and what is too slow") {
 TEST_CASE("accuracy chart: nothing is clipped, the bars of the spread lie within the axes") {
   const Plot plot = accuracy_plot(rows, "A shell");
   const double width = 500, height = 300;
-  draw_picture(width, height, 1, white, [&](Canvas& canvas) {
+  (void)draw_picture(width, height, 1, white, [&](Canvas& canvas) {
     draw_plot(canvas, Box{0, 0, width, height}.inset(2), plot);
     test::check_apart(canvas);
     CHECK(canvas.texts().size() > 12);
@@ -77,7 +77,7 @@ std::vector<record::StabilityRow> cells() {
 
 TEST_CASE("outcome map: all texts are there and lie inside") {
   const double width = 400, height = outcome_maps_height(cells(), width);
-  draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+  (void)draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
     draw_outcome_maps(canvas, {0, 0, width, height}, cells(), "A shell");
     for (const char* requested : {"A shell", "full steps", "default", "load steps", "10−6", "1",
                                   "4", "silent wrong", "silent: planar saddle", "right"}) {
@@ -91,7 +91,7 @@ TEST_CASE("outcome map: all texts are there and lie inside") {
 TEST_CASE("outcome map: a cell bears the colour of its outcome") {
   std::vector<record::StabilityRow> one{{"m", "a", "x", 1, "y", 1, RunOutcome::blow_up}};
   const double width = 300, height = outcome_maps_height(one, width);
-  const Image image = draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+  const Image image = *draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
     draw_outcome_maps(canvas, {0, 0, width, height}, one, "");
   });
   const Colour requested = outcome_colour(RunOutcome::blow_up);
