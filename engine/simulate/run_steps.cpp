@@ -28,6 +28,7 @@ struct Done {
 struct Work : EquilibriumPath {
   Checkpoint begin;
   std::vector<Done> done = {};
+  std::string refused = {};  ///< why the step after the last segment could not begin; empty: none
 };
 
 /// Whether frames are sampled along the path of a step, which a segment then stores: for a push,
@@ -100,9 +101,14 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     StepPath path;
     auto report = apply_step(simulation, steps[k], watch, &path);
     if (watch.cancelled()) return stopped();
-    if (!report)
-      return fail(report.error().fault,
-                  fmt::format("[[step]] {}: {}", k + 1, report.error().message));
+    if (!report) {
+      std::string why = fmt::format("[[step]] {}: {}", k + 1, report.error().message);
+      if (k == 0) return fail(report.error().fault, std::move(why));
+      // the steps before it are kept
+      work.segments.pop_back();
+      work.refused = std::move(why);
+      break;
+    }
     segment.report = std::move(*report);
     static_cast<PathRecord&>(segment) = std::move(path);
     close(segment, simulation);
@@ -229,6 +235,11 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
 /// Sets the limit of the path and names its step in front of the reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
   set_limit(work, at_fraction);
+  if (!work.refused.empty()) {
+    work.limit = record::Limit::no_equilibrium;
+    work.limit_reason = work.refused;
+    return;
+  }
   if (work.limit == record::Limit::none) return;
   // the event that ended the path, else the first snap
   const auto ended = std::ranges::find_if(work.segments, [](const PathSegment& segment) {
