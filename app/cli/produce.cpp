@@ -350,8 +350,11 @@ Result<int> produce(const Options& options, Pictures pictures) {
   for (const Run& run : *runs) {
     if (!options.quiet) print_result(run, folder);
     const auto fault = failure_of(run.summary, run.preset.allow_unstable);
-    for (const auto& text :
-         {fault, help_for(run.preset, run.summary.limit, run.summary.largest_strain)})
+    // a step that cannot begin says itself what is expected
+    const auto help = run.summary.limit_reason.starts_with("[[step]]")
+                          ? std::string()
+                          : help_for(run.preset, run.summary.limit, run.summary.largest_strain);
+    for (const auto& text : {fault, help})
       if (!text.empty()) fmt::print(stderr, "{}: {}\n", run.preset.name, text);
     whole = whole && fault.empty();
   }

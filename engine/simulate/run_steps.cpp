@@ -337,6 +337,7 @@ std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int fra
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
                               record::Sink& sink, Watch& watch, const RunContext& context) {
+  TRY_DO(check_steps(steps, scene->footprint));
   auto work = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
