@@ -88,12 +88,12 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
   };
   // a binding of all members does not compile when one is added
   const auto look = [](const render::Appearance& all) {
-    const auto& [rod_mm, joint_mm, ring_mm, rod, joint, ring, background, map, range, cells, rings,
-                 floor, shadow, loads, braces, ghost, supports, clamped, lath_width_mm,
-                 lath_thickness_mm, sheen, far_fade, letters] = all;
-    return std::tie(rod_mm, joint_mm, ring_mm, rod, joint, ring, background, map, range, cells,
-                    rings, floor, shadow, loads, braces, ghost, supports, clamped, lath_width_mm,
-                    lath_thickness_mm, sheen, far_fade, letters);
+    const auto& [rod_mm, joint_mm, ring_mm, rod, joint, ring, background, rod_chosen, joint_chosen,
+                 map, range, cells, rings, floor, shadow, loads, braces, ghost, supports, clamped,
+                 lath_width_mm, lath_thickness_mm, sheen, far_fade, letters] = all;
+    return std::tie(rod_mm, joint_mm, ring_mm, rod, joint, ring, background, rod_chosen,
+                    joint_chosen, map, range, cells, rings, floor, shadow, loads, braces, ghost,
+                    supports, clamped, lath_width_mm, lath_thickness_mm, sheen, far_fade, letters);
   };
   // to_toml writes bins_range only if there are bins
   return movie(a) == movie(b) && a.bins_range == b.bins_range && beside(a) == beside(b) &&
