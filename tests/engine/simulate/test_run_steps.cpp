@@ -175,7 +175,7 @@ TEST_CASE("steps on what is not there are errors with their number") {
              Catch::StartsWith("[[step]] 2: got no prescribed joint"));
   preset::Step edge = of(StepKind::move);
   edge.edge_points = {{400, 1, 0, 0}};
-  CHECK_THAT(refused(edge), Catch::Contains("got edge point 400, expected 0 to 23"));
+  CHECK_THAT(refused(edge), Catch::Contains("edge_points: got 400, expected 0 to 23"));
 }
 
 TEST_CASE(
