@@ -22,7 +22,6 @@
 #include "engine/solve/mesh_levels.h"
 
 namespace gridshell::simulate {
-
 namespace {
 
 /// Typical largest distance of a gridshell's joints from their net, over rho: that of caps of a
