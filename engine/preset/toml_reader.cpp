@@ -73,7 +73,12 @@ std::vector<Entry> entries_of(const toml::table& over) {
   for (const auto& [key, node] : over) {
     const auto* inner = node.as_table();
     if (!inner) {
-      entries.push_back({"", std::string(key.str()), key.source(), &node});
+      // "rod.diameter_mm" in quotes is one key to TOML
+      const std::string_view name = key.str();
+      const std::size_t dot = std::min(name.find('.'), name.size());
+      const bool quoted = dot < name.size();
+      entries.push_back({std::string(name.substr(0, quoted ? dot : 0)),
+                         std::string(name.substr(quoted ? dot + 1 : 0)), key.source(), &node});
       continue;
     }
     for (const auto& [name, value] : *inner)

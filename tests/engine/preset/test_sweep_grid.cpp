@@ -196,3 +196,9 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
                        over("rod.young_GPa = {from = 1, to = 2, count = 100000}")),
              Contains("expected at most 100000"));
 }
+
+TEST_CASE("a swept key may be written in quotes") {
+  const SweepGrid grid(good(over("\"rod.young_GPa\" = [70, 83.0]")));
+  CHECK(grid.sweep().over[0].key == "rod.young_GPa");
+  CHECK(grid.at(1).preset.rod.young_GPa == 83);
+}
