@@ -179,11 +179,9 @@ std::string late_on_branch(const EquilibriumPath& path) {
     for (const Event& event : segment.report.events)
       if (path.single_motion && !event.jump && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
-            "a branch bifurcates from the path at progress {:.4f}, and its first state was found "
-            "at "
-            "progress {:.4f}: if several branches bifurcate there, which one it is may depend on "
-            "the "
-            "mesh",
+            "a branch bifurcates from the path at progress {:.4f}, and its first state was "
+            "found at progress {:.4f}: if several branches bifurcate there, which one it is may "
+            "depend on the mesh",
             progress_at(event.t), progress_at(*event.to));
   return "";
 }

@@ -269,6 +269,7 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
       report.outcome = Outcome::reached;
     return report;
   }
+  report.iterations = options.most_iterations;
   return report;
 }
 
@@ -286,10 +287,9 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
     return leave_saddle(system, state, softest_mode(system, departure.start, watch), departure,
                         watch);
   }
-  return fail(
-      Fault::no_equilibrium,
-      fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
-                  std::min(down.iterations, MinimiseOptions{}.most_iterations), down.last_move_mm));
+  return fail(Fault::no_equilibrium,
+              fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
+                          down.iterations, down.last_move_mm));
 }
 
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,
