@@ -145,7 +145,7 @@ Result<State> Shell::look() {
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
   session_->put_push(frame);
   state.certificate = session_->certificate();
-  for (const Constraint& hold : session_->holds()) {
+  for (const Constraint& hold : session_->constraints()) {
     const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];
     state.held.push_back({joint.i, joint.j});
     const bool one = hold.directions.cols() == 1;

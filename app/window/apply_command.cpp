@@ -219,12 +219,12 @@ bool EditSession::looks_between() const {
 }
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
-  if (session_->holds().empty()) return invalid("no joint is fixed");
+  if (session_->constraints().empty()) return invalid("no joint is fixed");
   if (command.joint >= int(now_.scene->footprint.joints.size())) return invalid("no such joint");
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();
-    for (const Constraint& hold : session_->holds()) joints.push_back(hold.node);
+    for (const Constraint& hold : session_->constraints()) joints.push_back(hold.node);
   }
   for (const int k : joints)
     TRY_DO(do_step(step_of(preset::StepKind::release, now_.scene->footprint.joints[std::size_t(k)]),

@@ -180,7 +180,7 @@ bool EditSession::FoundState::same_as(const FoundState& other) const {
 
 /// Stores an equilibrium if another one of the same boundary was found before.
 void EditSession::note_state() {
-  if (!view_.stable() || !session_->holds().empty() || only_coarse_mesh_ || now_.design ||
+  if (!view_.stable() || !session_->constraints().empty() || only_coarse_mesh_ || now_.design ||
       !session_->boundary.dragged.isZero(0))
     return;
   FoundState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};

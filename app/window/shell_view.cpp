@@ -116,8 +116,8 @@ void EditSession::update_view() {
   update_normals();
   s.held.clear();
   const auto& origins = session_->constraint_origins;
-  for (std::size_t k = 0; k < session_->holds().size(); ++k) {
-    const Constraint& hold = session_->holds()[k];
+  for (std::size_t k = 0; k < session_->constraints().size(); ++k) {
+    const Constraint& hold = session_->constraints()[k];
     const Eigen::Vector3d from =
         origins.contains(hold.node) ? origins.at(hold.node) : s.frame.nodes.col(hold.node);
     // displacements in free directions are not part of the depth

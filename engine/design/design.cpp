@@ -222,7 +222,7 @@ Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
   int row = 0;
   for (const FootprintRod& rod : scene->footprint.rods)
     for (const RodEnd hold : {rod.begin, rod.end})
-      found.row_of_end.push_back(is_held(hold) ? row++ : -1);
+      found.row_of_end.push_back(is_fixed(hold) ? row++ : -1);
   if (auto moved = fine.move_in_steps(by_hand, jump); !moved)
     return fail(Fault::no_equilibrium, "rounded to {:g} mm the designed shell is lost: {}",
                 preset.inverse.round_mm, moved.error().message);

@@ -98,7 +98,7 @@ std::vector<Eigen::Vector3d> directions_of(Vary kind, const ShellEnds& ends, Eig
 /// Whether there is a variable of this kind at an end; the diameter of a rod belongs to its start.
 bool applies(Vary kind, Eigen::Index end, RodEnd hold) {
   if (kind == Vary::diameters) return end % 2 == 0;
-  return kind == Vary::directions ? holds_direction(hold) : is_held(hold);
+  return kind == Vary::directions ? fixes_direction(hold) : is_fixed(hold);
 }
 
 /// The projector on the changes that all symmetries preserve: the mean of their actions on the

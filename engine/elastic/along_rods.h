@@ -76,16 +76,16 @@ void each_pair(const Model& model, Visit visit) {
 /// Calls visit(pair, index of its torque among the forces) for every joint with a spring.
 template <class Visit>
 void each_spring(const Model& model, Visit visit) {
-  Eigen::Index place = Eigen::Index(model.edges.size());
+  Eigen::Index index = Eigen::Index(model.edges.size());
   for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs))
-    visit(pair, place++);
+    visit(pair, index++);
 }
 
 /// Calls visit(edge, column) for both edges of a joint with a spring. `column`: where an assembly's
 /// tangents have the derivative of the angle by the edge vector.
 template <class Visit>
-void each_arm(const Model& model, const Pair<JointAngle>& pair, Eigen::Index place, Visit visit) {
-  const Eigen::Index first = 2 * place - Eigen::Index(model.edges.size());
+void each_arm(const Model& model, const Pair<JointAngle>& pair, Eigen::Index index, Visit visit) {
+  const Eigen::Index first = 2 * index - Eigen::Index(model.edges.size());
   visit(model.edges[std::size_t(pair.e)], first);
   visit(model.edges[std::size_t(pair.f)], first + 1);
 }
@@ -125,25 +125,25 @@ inline void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, Bloc
 template <class Law>
 void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
                       BlockHessian& h) {
-  const int place[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
+  const int index[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
   const double scale = 1 / model.spin_length;
   for (int k = 0; k < 2; ++k)
     for (int end = 0; end < 4; ++end) {
       const double side = end % 2 == 0 ? -scale : scale;
       Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-      block.col(place[k] % 3) = side * H.block<3, 1>(end < 2 ? 0 : 3, 6 + k);
+      block.col(index[k] % 3) = side * H.block<3, 1>(end < 2 ? 0 : 3, 6 + k);
       h.add(pair.slots.spin[end][k], block);
     }
   for (int k = 0; k < 2; ++k)
-    h.diagonal[std::size_t(place[k] / 3)].matrix()(place[k] % 3, place[k] % 3) +=
+    h.diagonal[std::size_t(index[k] / 3)].matrix()(index[k] % 3, index[k] % 3) +=
         scale * scale * H(6 + k, 6 + k);
   const double across = scale * scale * H(6, 7);
-  if (place[0] / 3 == place[1] / 3) {
-    auto own = h.diagonal[std::size_t(place[0] / 3)].matrix();
-    own(place[0] % 3, place[1] % 3) += across;
-    own(place[1] % 3, place[0] % 3) += across;
+  if (index[0] / 3 == index[1] / 3) {
+    auto own = h.diagonal[std::size_t(index[0] / 3)].matrix();
+    own(index[0] % 3, index[1] % 3) += across;
+    own(index[1] % 3, index[0] % 3) += across;
   } else {
-    h.add_entry(pair.slots.spins, place[0] % 3, place[1] % 3, across);
+    h.add_entry(pair.slots.spins, index[0] % 3, index[1] % 3, across);
   }
 }
 

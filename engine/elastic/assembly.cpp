@@ -341,19 +341,19 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
   if (hessian.rank_one.cols() > 0) y += hessian.rank_one * hessian.rank_one.cwiseProduct(x).sum();
 }
 
-void clear_held(const Model& model, Eigen::Matrix3Xd& x) {
+void clear_fixed(const Model& model, Eigen::Matrix3Xd& x) {
   for (int column = 0; column < model.columns(); ++column)
     for (int row = 0; row < 3; ++row)
-      if (model.held[std::size_t(column)] >> row & 1) x(row, column) = 0;
+      if (model.fixed[std::size_t(column)] >> row & 1) x(row, column) = 0;
 }
 
 double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient) {
   double largest = 0;
   for (int column : model.free_columns) {
     Eigen::Vector3d force = gradient.col(column);
-    const unsigned char held = model.held[std::size_t(column)];
-    for (int row = 0; row < 3 && held; ++row)
-      if (held >> row & 1) force[row] = 0;
+    const unsigned char fixed = model.fixed[std::size_t(column)];
+    for (int row = 0; row < 3 && fixed; ++row)
+      if (fixed >> row & 1) force[row] = 0;
     if (!(force.norm() <= largest)) largest = force.norm();  // a nan is kept, not hidden
   }
   return largest;

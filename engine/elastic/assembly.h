@@ -103,7 +103,7 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
               Eigen::Matrix3Xd& y);
 
 /// Sets the prescribed and following components of `x` to zero.
-void clear_held(const Model& model, Eigen::Matrix3Xd& x);
+void clear_fixed(const Model& model, Eigen::Matrix3Xd& x);
 
 /// Largest norm of the free components of a column of the gradient, N; NaN if one is NaN.
 double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient);

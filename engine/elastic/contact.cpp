@@ -24,10 +24,10 @@ std::array<double, 3> log_barrier(double x) {
 }
 
 /// For every node, the first node at the same position (for edge points: in the flat).
-std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
-  std::vector<int> place(std::size_t(mesh.nodes()));
-  for (int k = 0; k < mesh.nodes(); ++k) place[std::size_t(k)] = k;
-  for (const EccentricJoint& at : mesh.eccentric) place[std::size_t(at.node)] = at.joint;
+std::vector<int> representatives_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
+  std::vector<int> representative(std::size_t(mesh.nodes()));
+  for (int k = 0; k < mesh.nodes(); ++k) representative[std::size_t(k)] = k;
+  for (const EccentricJoint& at : mesh.eccentric) representative[std::size_t(at.node)] = at.joint;
   const auto at = [&](int k) {
     const Eigen::Vector2d flat = mesh.flat.col(k);
     return Vector3d(flat.x(), flat.y(), mesh.height.size() > 0 ? mesh.height[k] : 0);
@@ -37,10 +37,10 @@ std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radiu
       const double radii = radius_mm[std::size_t(k / 2)] + radius_mm[std::size_t(other / 2)];
       const int a = mesh.joints + other, b = mesh.joints + k;
       if (k / 2 == other / 2 || (at(a) - at(b)).norm() >= radii) continue;
-      place[std::size_t(b)] = place[std::size_t(a)];
+      representative[std::size_t(b)] = representative[std::size_t(a)];
       break;
     }
-  return place;
+  return representative;
 }
 
 /// Two edges p + s u and q + t v near each other, with the distance of each_contact().
@@ -161,7 +161,7 @@ double ContactPairs::thinness(const ContactEdge& a, const ContactEdge& b) const 
 
 ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactLaw& law) {
   ContactPairs pairs{law.barrier, {}, law.radius_mm, {}, law.joint_mm};
-  const std::vector<int> place = places_of(mesh, law.radius_mm);
+  const std::vector<int> representative = representatives_of(mesh, law.radius_mm);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const std::vector<double>& s = mesh.position[r];
@@ -174,14 +174,16 @@ ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const Contac
       do ++end;
       while (end < last && mesh.joint_of(node[std::size_t(end)]) < 0);
       const auto at = [&](int k) { return s[std::size_t(k)]; };
-      const auto place_of = [&](int k) { return place[std::size_t(node[std::size_t(k)])]; };
+      const auto representative_of = [&](int k) {
+        return representative[std::size_t(node[std::size_t(k)])];
+      };
       for (int k = begin; k < end; ++k)
         pairs.edges.push_back({model.rods[r].edges[std::size_t(k)],
                                int(r),
                                at(k),
                                at(k + 1),
-                               {{{place_of(begin), at(begin), at(k) - at(begin)},
-                                 {place_of(end), at(end), at(end) - at(k + 1)}}}});
+                               {{{representative_of(begin), at(begin), at(k) - at(begin)},
+                                 {representative_of(end), at(end), at(end) - at(k + 1)}}}});
     }
   }
   return pairs;

@@ -88,8 +88,8 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
             Assembly& out) {
   const auto& [pair, other_half, stiffness, blocks] = hinge;
   const PairEnergy phi = JointSpin::slopes(pair_geometry(model, state, pair), with_hessian);
-  const int place = model.spin[std::size_t(pair.e)], row = place % 3;
-  const double length = model.spin_length, moment = out.gradient.data()[place];
+  const int index = model.spin[std::size_t(pair.e)], row = index % 3;
+  const double length = model.spin_length, moment = out.gradient.data()[index];
   std::array<Eigen::Vector3d, 4> by{};  // derivatives of the angle's unknown by each node
   for (std::size_t k = 0; k < blocks.leading.size(); ++k) {
     by[k].setZero();
@@ -102,9 +102,9 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
     out.gradient.col(blocks.leading[k]) += moment * by[k];
   }
   const double spin = model.angle(state.x, pair.e);
-  out.gradient.data()[place] += stiffness * spin / length;
+  out.gradient.data()[index] += stiffness * spin / length;
   if (!with_hessian) return;
-  auto own = out.hessian.diagonal[std::size_t(place / 3)].matrix();
+  auto own = out.hessian.diagonal[std::size_t(index / 3)].matrix();
   PairMatrix both = -length * moment * phi.hessian;
   both.topLeftCorner<6, 6>() +=
       own(row, row) * length * length * phi.gradient.head<6>() * phi.gradient.head<6>().transpose();
@@ -146,7 +146,7 @@ void reduce_beyond(const Model& model, BlockHessian& h) {
     return parts;
   };
   const auto follows = [&](int column) {
-    return model.held[std::size_t(column)] == Model::follows;
+    return model.fixed[std::size_t(column)] == Model::follows;
   };
   const auto all = std::exchange(h.beyond, {});
   for (const BlockHessian::Beyond& one : all) {
@@ -251,8 +251,8 @@ void Model::fold(Eigen::Matrix3Xd& force) const {
 
 Eigen::VectorXd spring_excess(const Model& model, const State& state, double opening) {
   Eigen::VectorXd excess(model.forces() - Eigen::Index(model.edges.size()));
-  each_spring(model, [&](const auto& pair, Eigen::Index place) {
-    excess[place - Eigen::Index(model.edges.size())] =
+  each_spring(model, [&](const auto& pair, Eigen::Index index) {
+    excess[index - Eigen::Index(model.edges.size())] =
         pair.law.excess(pair_geometry(model, state, pair, opening));
   });
   return excess;
@@ -278,12 +278,12 @@ void add_joint_angles(const Model& model, const State& state, double opening,
   out.force.tail(torques.size()) = torques;
   const bool mean = stiffness && model.mean_stiffness > 0;
   if (mean) out.hessian.rank_one.setZero(3, model.columns());
-  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+  each_spring(model, [&](const auto& pair, Eigen::Index index) {
     const PairEnergy angle =
         pair.law.slopes(pair_geometry(model, state, pair), stiffness != nullptr);
-    const double torque = out.force[place], known = state.force[place];
+    const double torque = out.force[index], known = state.force[index];
     Eigen::Index from = 0;
-    each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+    each_arm(model, pair, index, [&](const ModelEdge& edge, Eigen::Index column) {
       const Eigen::Vector3d slope = angle.gradient.segment<3>(std::exchange(from, 3));
       out.tangents.col(column) = slope;
       Eigen::Vector3d pull = torque * slope;
@@ -356,13 +356,13 @@ Eigen::Matrix3Xd opening_rate(const Model& model, const Eigen::Matrix3Xd& tangen
   Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
   const Eigen::Index first = Eigen::Index(model.edges.size());
   Eigen::VectorXd opened(model.forces() - first);
-  each_spring(model, [&](const auto& pair, Eigen::Index place) {
-    opened[place - first] = pair.law.opening;
+  each_spring(model, [&](const auto& pair, Eigen::Index index) {
+    opened[index - first] = pair.law.opening;
   });
   const Eigen::VectorXd torques = spring_torques(model, std::move(opened));
-  each_spring(model, [&](const auto& pair, Eigen::Index place) {
-    each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
-      const Eigen::Vector3d pull = torques[place - first] * tangents.col(column);
+  each_spring(model, [&](const auto& pair, Eigen::Index index) {
+    each_arm(model, pair, index, [&](const ModelEdge& edge, Eigen::Index column) {
+      const Eigen::Vector3d pull = torques[index - first] * tangents.col(column);
       rate.col(edge.from) += pull;
       rate.col(edge.to) -= pull;
     });

@@ -22,10 +22,10 @@ std::pair<int, int> halves_at(const Model& model, int rod, int node) {
 /// Frees the twist angle of a rod that was fixed because no energy depended on it: now the law of a
 /// joint does.
 void release_spin(Model& model, int rod) {
-  int& fixed_spin = model.rods[std::size_t(rod)].held_spin;
+  int& fixed_spin = model.rods[std::size_t(rod)].fixed_spin;
   if (fixed_spin < 0) return;
   const int component = model.spin[std::size_t(std::exchange(fixed_spin, -1))];
-  model.held[std::size_t(component / 3)] &= (unsigned char)~(1 << component % 3);
+  model.fixed[std::size_t(component / 3)] &= (unsigned char)~(1 << component % 3);
 }
 
 double turn_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -45,7 +45,7 @@ double length_between(const Model& model, int e, int f) {
 
 int Model::dof() const {
   int count = 0;
-  for (unsigned char bits : held) count += 3 - std::popcount((unsigned char)(bits & all_held));
+  for (unsigned char bits : fixed) count += 3 - std::popcount((unsigned char)(bits & all_fixed));
   return count;
 }
 
@@ -80,7 +80,7 @@ void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int sid
     model.hinges.push_back(
         {{own.first, other.first, -1, {0, turned}}, own.second, rigid ? 0 : stiffness});
     release_spin(model, rod);
-    if (rigid) model.hold_spin(own.first);
+    if (rigid) model.fix_spin(own.first);
   };
   add(a, b, at.rod_a, side);
   add(b, a, at.rod_b, -side);

@@ -64,13 +64,13 @@ double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
 
 }  // namespace
 
-Eigen::Vector3d drawn_place(const RodMesh& mesh, int node) {
+Eigen::Vector3d drawn_position(const RodMesh& mesh, int node) {
   const Eigen::Index k = node < mesh.nodes() ? node : node - mesh.nodes();
   return {mesh.flat(0, k), mesh.flat(1, k), mesh.height.size() > 0 ? mesh.height[k] : 0};
 }
 
 Eigen::Vector3d drawn_direction(const RodMesh& mesh, int from, int to) {
-  return (drawn_place(mesh, to) - drawn_place(mesh, from)).normalized();
+  return (drawn_position(mesh, to) - drawn_position(mesh, from)).normalized();
 }
 
 Crossings crossings_of(const RodMesh& mesh) {
@@ -191,8 +191,8 @@ Result<void> add_joint_laws(const RodMesh& mesh, const ShellRods& shell, const C
 Bolts drawn_bolts(const RodMesh& mesh, double stiffness_Nmm) {
   Bolts bolts{.stiffness_Nmm = stiffness_Nmm, .rods = {}};
   for (const std::vector<RodAt>& rods : crossings_of(mesh)) {
-    auto& held = bolts.rods.emplace_back();
-    for (const RodAt& rod : rods) held.push_back(direction_at(mesh, rod));
+    auto& directions = bolts.rods.emplace_back();
+    for (const RodAt& rod : rods) directions.push_back(direction_at(mesh, rod));
   }
   return bolts;
 }
@@ -202,10 +202,10 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, dou
   const auto crossings = crossings_of(mesh);
   const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
   for (int joint = 0; joint < mesh.joints; ++joint) {
-    auto& held = bolts.rods.emplace_back();
+    auto& directions = bolts.rods.emplace_back();
     for (const auto& [rod, own] : crossings[std::size_t(joint)])
-      held.push_back(
-          tangent_at(model, state.x, rod, springs && !held.empty() ? mesh.nodes() + joint : own));
+      directions.push_back(tangent_at(model, state.x, rod,
+                                      springs && !directions.empty() ? mesh.nodes() + joint : own));
   }
   for (const ModelHinge& hinge : model.hinges)
     if (is_closed(model, state, hinge))

@@ -11,7 +11,7 @@
 namespace gridshell {
 
 /// Position of a node as drawn, mm; also of the second node of a joint.
-Eigen::Vector3d drawn_place(const RodMesh& mesh, int node);
+Eigen::Vector3d drawn_position(const RodMesh& mesh, int node);
 /// Unit vector between two nodes as drawn.
 Eigen::Vector3d drawn_direction(const RodMesh& mesh, int from, int to);
 

@@ -54,7 +54,7 @@ class Builder {
     entry.first_bend = int(model_.bends.size());
     const auto& s = rod.position;
     const int edges = int(s.size()) - 1;
-    if (holds_direction(rod.begin))
+    if (fixes_direction(rod.begin))
       entry.ghost_begin =
           add_edge(entry, ghost(rod.ghost_begin), rod.nodes.front(), s[1] - s[0], 0);
     const auto node = [&](int k) { return rod.nodes[std::size_t(k) % rod.nodes.size()]; };
@@ -68,7 +68,7 @@ class Builder {
       if (centred(k) && (k > 0 || entry.closed))
         model_.followers.push_back({node(k + 1), node(k), node(k > 0 ? k - 1 : edges - 1)});
     }
-    if (holds_direction(rod.end))
+    if (fixes_direction(rod.end))
       entry.ghost_end =
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
     for (std::size_t k = 1; k < entry.edges.size(); ++k) {
@@ -95,11 +95,11 @@ class Builder {
     mark_shared(rods, crossings);
     for (const ModelEdge& edge : model_.edges)
       if (edge.centre >= 0) crossings[std::size_t(edge.from)] = crossings[std::size_t(edge.to)] = 1;
-    model_.held.assign(std::size_t(model_.nodes), 0);
-    if (twist_) place_spins(crossings);
-    for (std::size_t r = 0; r < rods.size(); ++r) hold(rods[r], model_.rods[r]);
+    model_.fixed.assign(std::size_t(model_.nodes), 0);
+    if (twist_) assign_spins(crossings);
+    for (std::size_t r = 0; r < rods.size(); ++r) fix_ends(rods[r], model_.rods[r]);
     for (const ModelFollower& one : model_.followers)
-      model_.held[std::size_t(one.node)] = Model::follows;
+      model_.fixed[std::size_t(one.node)] = Model::follows;
     lay_along_rods(rods);
     find_segments(crossings);
     find_waves();
@@ -170,7 +170,7 @@ class Builder {
   /// Assigns three angles to a column. Angles of the edges on both sides of a crossing are together
   /// in a column, so that columns inside a segment have no blocks across the crossing. Two halves
   /// of an edge have one angle.
-  void place_spins(const std::vector<char>& crossings) {
+  void assign_spins(const std::vector<char>& crossings) {
     model_.spin.resize(model_.edges.size());
     model_.spin_length = 0;
     for (const ModelEdge& edge : model_.edges)
@@ -190,12 +190,12 @@ class Builder {
         const bool after = crossings[std::size_t(model_.edges[std::size_t(edge)].from)],
                    before = crossings[std::size_t(model_.edges[std::size_t(edge)].to)];
         if (used == 3 || (before && !after)) {
-          model_.held.push_back(Model::all_held);
+          model_.fixed.push_back(Model::all_fixed);
           used = 0;
         }
         const int column = model_.columns() - 1;
         model_.spin[std::size_t(edge)] = 3 * column + used;
-        model_.held.back() ^= (unsigned char)(1 << used++);
+        model_.fixed.back() ^= (unsigned char)(1 << used++);
         if (after && !before) used = 3;
       }
     }
@@ -203,7 +203,7 @@ class Builder {
 
   /// Fixes the unknowns that the ends of a rod prescribe, and one angle if nothing else resists
   /// spin.
-  void hold(const ModelRod& rod, Model::Rod& entry) {
+  void fix_ends(const ModelRod& rod, Model::Rod& entry) {
     if (!entry.closed) {
       if (rod.begin != RodEnd::free) model_.pin(rod.nodes.front());
       if (rod.end != RodEnd::free) model_.pin(rod.nodes.back());
@@ -211,12 +211,12 @@ class Builder {
     if (entry.ghost_begin >= 0) model_.pin(model_.edges[std::size_t(entry.ghost_begin)].from);
     if (entry.ghost_end >= 0) model_.pin(model_.edges[std::size_t(entry.ghost_end)].to);
     if (!twist_) return;
-    if (rod.begin == RodEnd::clamped) model_.hold_spin(entry.ghost_begin);
-    if (rod.end == RodEnd::clamped) model_.hold_spin(entry.ghost_end);
+    if (rod.begin == RodEnd::clamped) model_.fix_spin(entry.ghost_begin);
+    if (rod.end == RodEnd::clamped) model_.fix_spin(entry.ghost_end);
     const bool clamped = rod.begin == RodEnd::clamped || rod.end == RodEnd::clamped;
     if (clamped || !rod.material.round_and_straight()) return;
-    entry.held_spin = entry.edges.front();
-    model_.hold_spin(entry.held_spin);
+    entry.fixed_spin = entry.edges.front();
+    model_.fix_spin(entry.fixed_spin);
   }
 
   /// Sets `flat` to parallel rods, for the ordering of a model without flat positions.
@@ -285,10 +285,10 @@ class Builder {
 
 BlockSlot slot_of(Model& model, int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); }
 
-/// Sets the slots of the blocks between the nodes of a pair of edges; place_pair() also those of
+/// Sets the slots of the blocks between the nodes of a pair of edges; set_slots() also those of
 /// their angles.
 template <class Law>
-void place_vectors(Model& model, Pair<Law>& pair) {
+void set_vector_slots(Model& model, Pair<Law>& pair) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
   PairSlots& slots = pair.slots;
   slots.e = e.slot, slots.f = f.slot;
@@ -298,8 +298,8 @@ void place_vectors(Model& model, Pair<Law>& pair) {
 }
 
 template <class Law>
-void place_pair(Model& model, Pair<Law>& pair) {
-  place_vectors(model, pair);
+void set_slots(Model& model, Pair<Law>& pair) {
+  set_vector_slots(model, pair);
   if (!model.has_spins()) return;
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
   const int ends[4] = {e.from, e.to, f.from, f.to};
@@ -312,8 +312,8 @@ void place_pair(Model& model, Pair<Law>& pair) {
 
 /// Sets where the blocks of following columns are added, in the order in which they are
 /// transferred: angles first, as they follow nodes of which some follow others.
-void place_followers(Model& model) {
-  for (ModelHinge& hinge : model.hinges) place_vectors(model, hinge.pair);
+void set_follower_slots(Model& model) {
+  for (ModelHinge& hinge : model.hinges) set_vector_slots(model, hinge.pair);
   std::vector<std::vector<int>> beside(std::size_t(model.columns()));
   const auto& pairs = model.pattern.pairs();
   std::size_t seen = 0;
@@ -372,18 +372,18 @@ void finish(Model& model) {
   for (ModelBar& bar : model.bars) bar.slot = model.pattern.slot(bar.law.a, bar.law.b);
   std::apply(
       [&](auto&... lists) {
-        const auto place = [&](auto& list) {
+        const auto set_list = [&](auto& list) {
           list.shrink_to_fit();  // most of a model's memory
-          for (auto& pair : list) place_pair(model, pair);
+          for (auto& pair : list) set_slots(model, pair);
         };
-        (place(lists), ...);
+        (set_list(lists), ...);
       },
       model.pairs);
-  place_followers(model);
+  set_follower_slots(model);
   model.free_index.assign(std::size_t(model.columns()), -1);
   model.free_columns.clear();
   for (int column = 0; column < model.columns(); ++column) {
-    if ((model.held[std::size_t(column)] & Model::all_held) == Model::all_held) continue;
+    if ((model.fixed[std::size_t(column)] & Model::all_fixed) == Model::all_fixed) continue;
     model.free_index[std::size_t(column)] = model.free();
     model.free_columns.push_back(column);
   }

@@ -167,7 +167,7 @@ struct Model {
     bool closed = false;
     int first_bend = 0;        ///< the first of its bends, which are consecutive
     int closing_bend = -1;     ///< the bend that closes a ring, or -1
-    int held_spin = -1;        ///< edge whose angle is fixed as nothing resists the spin, or -1
+    int fixed_spin = -1;       ///< edge whose angle is fixed as nothing resists the spin, or -1
     Eigen::Vector3d director;  ///< m1 at the start, as near as the tangent allows
     double gyration_mm2 = 0;   ///< squared radius of gyration about the rod's axis: (I1 + I2)/A
     FibreReach fibres;
@@ -177,10 +177,10 @@ struct Model {
   /// in parallel: the sum at a node has the same order for any number of threads.
   std::vector<std::vector<int>> waves;
 
-  /// For each column bits 1, 2, 4 of its unknowns that are prescribed or do not exist (all_held:
+  /// For each column bits 1, 2, 4 of its unknowns that are prescribed or do not exist (all_fixed:
   /// all three), and bit 8 in addition if it follows other columns (`follows`).
-  std::vector<unsigned char> held;
-  static constexpr unsigned char all_held = 7, follows = 15;
+  std::vector<unsigned char> fixed;
+  static constexpr unsigned char all_fixed = 7, follows = 15;
 
   // computed by finish()
   BlockPattern pattern;
@@ -194,19 +194,19 @@ struct Model {
   Eigen::Index forces() const {
     return Eigen::Index(edges.size() + std::get<std::vector<Pair<JointAngle>>>(pairs).size());
   }
-  int columns() const { return int(held.size()); }
+  int columns() const { return int(fixed.size()); }
   int free() const { return int(free_columns.size()); }
   int dof() const;
-  bool pinned(int column) const { return held[std::size_t(column)] == all_held; }
-  void pin(int node) { held[std::size_t(node)] = all_held; }
-  void hold(int column, int row) { held[std::size_t(column)] |= (unsigned char)(1 << row); }
+  bool pinned(int column) const { return fixed[std::size_t(column)] == all_fixed; }
+  void pin(int node) { fixed[std::size_t(node)] = all_fixed; }
+  void fix(int column, int row) { fixed[std::size_t(column)] |= (unsigned char)(1 << row); }
   bool has_spins() const { return !spin.empty(); }
   /// Sets the following nodes of `x`, positions or displacements, from the leading ones.
   void follow(Eigen::Matrix3Xd& x) const;
   /// Transfers the forces on following nodes to the leading ones (chain rule).
   void fold(Eigen::Matrix3Xd& force) const;
   /// Fixes the angle of an edge.
-  void hold_spin(int edge) { hold(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
+  void fix_spin(int edge) { fix(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
   /// The angle of an edge in a state, rad.
   double angle(const Eigen::Matrix3Xd& x, int edge) const {
     return x.data()[spin[std::size_t(edge)]] / spin_length;

@@ -54,23 +54,24 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
     const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
     const auto joint =
         std::find_if(first, last, [&](int node) { return mesh.joint_of(node) >= 0; });
-    if (!tail && !holds_direction(mesh.end_of(end)) && joint != last)
+    if (!tail && !fixes_direction(mesh.end_of(end)) && joint != last)
       centred |= mesh.is_centred(*joint);
   };
   halve_end(int(2 * r), rod.nodes.begin(), rod.nodes.end(), rod.centred.front());
   halve_end(int(2 * r + 1), rod.nodes.rbegin(), rod.nodes.rend(), rod.centred.back());
   if (material.as_drawn && std::ranges::count(rod.centred, 1) > 0)
     for (std::size_t k = 1; k < rod.position.size(); ++k)
-      rod.position[k] = rod.position[k - 1] + (drawn_place(mesh, rod.nodes[k % rod.nodes.size()]) -
-                                               drawn_place(mesh, rod.nodes[k - 1]))
-                                                  .norm();
+      rod.position[k] =
+          rod.position[k - 1] + (drawn_position(mesh, rod.nodes[k % rod.nodes.size()]) -
+                                 drawn_position(mesh, rod.nodes[k - 1]))
+                                    .norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
   // an end on a spring is free: the spring is a separate element
-  const auto held = [&](RodEnd end) {
+  const auto prescribed = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
   };
-  rod.begin = held(mesh.end_of(int(2 * r)));
-  rod.end = held(mesh.end_of(int(2 * r + 1)));
+  rod.begin = prescribed(mesh.end_of(int(2 * r)));
+  rod.end = prescribed(mesh.end_of(int(2 * r + 1)));
   return rod;
 }
 

@@ -89,18 +89,18 @@ void centre(const Model& model, Eigen::Matrix3Xd& x) {
 }
 
 /// The position of each edge along a rod, mm: that of its middle; for a ghost edge the end point.
-std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
-  std::vector<double> places;
+std::vector<double> positions_along(const Model& model, const Model::Rod& rod) {
+  std::vector<double> positions;
   double s = 0;
   for (int edge : rod.edges) {
     const bool ghost = edge == rod.ghost_begin || edge == rod.ghost_end;
     const ModelEdge& one = model.edges[std::size_t(edge)];
     const double length = ghost ? 0 : one.rest_length;
     // half of a centred edge is at the joint
-    places.push_back(s + (one.centre < 0 ? 0.5 : one.centre == one.to ? 1.0 : 0.0) * length);
+    positions.push_back(s + (one.centre < 0 ? 0.5 : one.centre == one.to ? 1.0 : 0.0) * length);
     s += length;
   }
-  return places;
+  return positions;
 }
 
 /// Linear interpolation between known values, extrapolated past the ends.
@@ -235,18 +235,18 @@ void StateTransfer::carry_spins(const State& state, State& carried) const {
             signed_angle(carried.director.col(half), plain.col(half), tangents.col(half));
   for (std::size_t r = 0; r < from_.rods.size(); ++r) {
     const Model::Rod &before = from_.rods[r], &after = to_.rods[r];
-    const std::vector<double> at = places_along(from_, before);
+    const std::vector<double> at = positions_along(from_, before);
     std::vector<double> turned{
         angle_between(from_, state, before.edges.front(), to_, carried, after.edges.front()) -
         off[std::size_t(after.edges.front())]};
     for (std::size_t k = 1; k < before.edges.size(); ++k)
       turned.push_back(turned.back() + twist_at(from_, state, before.first_bend + int(k) - 1));
-    const std::vector<double> places = places_along(to_, after);
+    const std::vector<double> positions = positions_along(to_, after);
     const auto angle = [&](int edge) -> double& {
       return carried.x.data()[to_.spin[std::size_t(edge)]];
     };
     for (std::size_t k = 0; k < after.edges.size(); ++k)
-      angle(after.edges[k]) = to_.spin_length * (interpolated(at, turned, places[k]) +
+      angle(after.edges[k]) = to_.spin_length * (interpolated(at, turned, positions[k]) +
                                                  off[std::size_t(after.edges[k])]);
     for (const auto& [old_end, new_end] :
          {std::pair(before.ghost_begin, after.ghost_begin), {before.ghost_end, after.ghost_end}})

@@ -99,9 +99,9 @@ struct FootprintCell {
 enum class RodEnd { free, pinned, tangent, clamped, joined, sprung };
 
 /// Whether the direction of the end is prescribed.
-inline bool holds_direction(RodEnd end) { return end == RodEnd::tangent || end == RodEnd::clamped; }
+inline bool fixes_direction(RodEnd end) { return end == RodEnd::tangent || end == RodEnd::clamped; }
 /// Whether the boundary fixes the end, rigidly or by a spring.
-inline bool is_held(RodEnd end) { return end != RodEnd::free && end != RodEnd::joined; }
+inline bool is_fixed(RodEnd end) { return end != RodEnd::free && end != RodEnd::joined; }
 
 /// One rod from edge point to edge point, straight in the flat or along a polyline. Positions along
 /// it, mm, are u on a u-rod, v on a v-rod, and else the arc length from its first point.

@@ -120,11 +120,11 @@ void add_ghosts(const Footprint& footprint, int& next, RodMesh& mesh) {
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     std::vector<int>& node = mesh.rods[r];
     std::vector<double>& at = mesh.position[r];
-    if (holds_direction(footprint.rods[r].begin)) {
+    if (fixes_direction(footprint.rods[r].begin)) {
       node.insert(node.begin(), next++);
       at.insert(at.begin(), at.front() - mesh.ghost_length);
     }
-    if (holds_direction(footprint.rods[r].end)) {
+    if (fixes_direction(footprint.rods[r].end)) {
       node.push_back(next++);
       at.push_back(at.back() + mesh.ghost_length);
     }

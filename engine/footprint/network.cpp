@@ -107,8 +107,8 @@ class Roles {
     return network_.free[point] != 0 ? RodEnd::free : RodEnd::pinned;
   }
   /// Whether the boundary fixes the joint, or the rod ends, at this point.
-  bool is_held(int point) const {
-    return is_joint(point) ? is_supported(point) : gridshell::is_held(end_at(point));
+  bool is_fixed(int point) const {
+    return is_joint(point) ? is_supported(point) : gridshell::is_fixed(end_at(point));
   }
   const Visits& at(int point) const { return visits_[point]; }
 
@@ -254,7 +254,7 @@ void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod
   const std::tuple<RodEnd, int, int> ends[] = {{rod.begin, points[0], points[1]},
                                                {rod.end, points[last], points[last - 1]}};
   for (const auto& [hold, from, to] : ends) {
-    if (!holds_direction(hold)) continue;
+    if (!fixes_direction(hold)) continue;
     const Eigen::Vector3d at = network.points.col(from), chord = network.points.col(to) - at;
     places.push_back({at + chord, Eigen::Vector3d::Ones()});
     if (hold == RodEnd::clamped)
@@ -284,7 +284,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
     first_rod.try_emplace(piece, r);
     ++rods_of[piece];
     for (const int point : network.rods[r])
-      if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
+      if (roles.is_fixed(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
         supports[piece].push_back({network.points.col(point), held_along(network, point)});
     add_directions(network, r, footprint.rods[r], supports[piece]);
   }

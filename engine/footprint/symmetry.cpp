@@ -81,10 +81,10 @@ std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matri
 
 }  // namespace
 
-std::vector<int> held_nodes(const RodMesh& mesh) {
+std::vector<int> fixed_nodes(const RodMesh& mesh) {
   std::vector<int> held = mesh.fixed_joints;
   for (int k = 0; k < mesh.edge_points; ++k)
-    if (is_held(mesh.end_of(k))) held.push_back(mesh.joints + k);
+    if (is_fixed(mesh.end_of(k))) held.push_back(mesh.joints + k);
   for (int node = mesh.rod_nodes(); node < mesh.rod_nodes() + mesh.ghosts; ++node)
     held.push_back(node);
   return held;
@@ -129,7 +129,7 @@ Eigen::Matrix3Xd MeshSymmetry::of(const Eigen::Matrix3Xd& x) const {
 }
 
 std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends) {
-  const std::vector<int> held = held_nodes(mesh);
+  const std::vector<int> held = fixed_nodes(mesh);
   std::vector<int> sorted = held;
   std::ranges::sort(sorted);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -18,7 +18,7 @@ double mirror_defect(const Eigen::Matrix3Xd& joints, const Eigen::Vector2d& norm
 // Considered are those of the square, with maps that invert z.
 
 /// Nodes that the boundary fixes: joints, edge points, ghosts.
-std::vector<int> held_nodes(const RodMesh& mesh);
+std::vector<int> fixed_nodes(const RodMesh& mesh);
 
 /// The sixteen linear maps of space that map the square lattice about the z-axis onto itself:
 /// signed permutations of x and y, then the same with z inverted. The identity is the first.

@@ -207,7 +207,7 @@ void ShapeContacts::look_within(Search& search, int begin, int end) const {
 void ShapeContacts::take(const Search& search) {
   if (!search.any) return;
   if (!(search.gap >= all_.rod_gap_mm)) all_.rod_gap_mm = search.gap;
-  if (search.gap < 0) all_.places.push_back(search.found);
+  if (search.gap < 0) all_.interpenetrations.push_back(search.found);
 }
 
 void ShapeContacts::rods(bool by_all_pairs) {
@@ -265,7 +265,7 @@ void ShapeContacts::joints(bool by_all_pairs) {
     if (gap >= diameter) return;
     if (!(gap >= all_.joint_gap_mm)) all_.joint_gap_mm = gap;
     if (gap < 0)
-      all_.places.push_back(
+      all_.interpenetrations.push_back(
           {ContactKind::joints, a, b, gap,
            0.5 * (foot[i] + near.s * (top[i] - foot[i]) + foot[j] + near.t * (top[j] - foot[j]))});
   };
@@ -281,7 +281,7 @@ void ShapeContacts::table() {
         std::min_element(x_.begin() + s.begin, x_.begin() + s.end + 1,
                          [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
     const double gap = lowest->z() - of_.table_mm_ + of_.radius_mm_[s.rod];
-    if (gap < 0) all_.places.push_back({ContactKind::table, s.rod, -1, gap, *lowest});
+    if (gap < 0) all_.interpenetrations.push_back({ContactKind::table, s.rod, -1, gap, *lowest});
   }
 }
 
@@ -289,7 +289,7 @@ Contacts ShapeContacts::found(bool by_all_pairs) {
   rods(by_all_pairs);
   if (of_.joint_diameter_mm_ > 0) joints(by_all_pairs);
   table();
-  std::ranges::sort(all_.places, [](const Contact& a, const Contact& b) {
+  std::ranges::sort(all_.interpenetrations, [](const Contact& a, const Contact& b) {
     return std::tuple(a.kind, a.gap_mm, a.first, a.second) <
            std::tuple(b.kind, b.gap_mm, b.first, b.second);
   });
@@ -354,8 +354,8 @@ Contacts ContactSearch::by_all_pairs(const Eigen::Matrix3Xd& nodes) const {
 }
 
 const Contact* Contacts::deepest(ContactKind kind) const {
-  const auto found = std::ranges::find(places, kind, &Contact::kind);
-  return found == places.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(interpenetrations, kind, &Contact::kind);
+  return found == interpenetrations.end() ? nullptr : &*found;
 }
 
 }  // namespace gridshell::record

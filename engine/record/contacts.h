@@ -24,7 +24,7 @@ struct Contact {
 struct Contacts {
   /// All interpenetrations: those of rods, of joints, with the table; the deepest of each kind
   /// first.
-  std::vector<Contact> places;
+  std::vector<Contact> interpenetrations;
   /// Least gaps between the surfaces of rods away from their joints and between the joints'
   /// cylinders, mm; NaN if they are above the diameter of a rod or of a joint.
   double rod_gap_mm = unknown, joint_gap_mm = unknown;

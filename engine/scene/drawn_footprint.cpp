@@ -166,7 +166,7 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
   }
   for (std::size_t end = 0; end < made.ends.size(); ++end) {
     const FootprintRod& rod = made.footprint.rods[end / 2];
-    if (!is_held(end % 2 == 0 ? rod.begin : rod.end)) continue;
+    if (!is_fixed(end % 2 == 0 ? rod.begin : rod.end)) continue;
     numbers.push_back(made.ends[end]);
     from.push_back(scene.motion.begin.col(Eigen::Index(end)));
     to.push_back(scene.motion.end.col(Eigen::Index(end)));

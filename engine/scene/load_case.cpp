@@ -114,8 +114,8 @@ Result<void> check_pressure(const LoadCase& load, const std::string& key,
   std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const int joints = int(footprint.joints.size());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    if (is_held(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));
-    if (is_held(footprint.rods[r].end)) held.insert(joints + 2 * int(r) + 1);
+    if (is_fixed(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));
+    if (is_fixed(footprint.rods[r].end)) held.insert(joints + 2 * int(r) + 1);
   }
   for (const FaceSide& side : edge_of(faces_of(footprint)))
     for (const int node : side) {

@@ -61,10 +61,10 @@ Result<void> add_second_ring(double length_mm, Scene& scene);
 Eigen::Matrix2Xd within_boundary(const Footprint& footprint, const RodMesh& mesh);
 
 /// Moves the nodes of tails to the straight lines between their two pins at the end of the motion.
-void place_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& places);
+void set_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& places);
 
-/// Positions on the scene's net of the nodes of a mesh without ghosts; tails as in place_tails().
+/// Positions on the scene's net of the nodes of a mesh without ghosts; tails as in set_tails().
 /// Errors: those of the net.
-Result<Eigen::Matrix3Xd> places_on_net(const Scene& scene, const RodMesh& mesh);
+Result<Eigen::Matrix3Xd> positions_on_net(const Scene& scene, const RodMesh& mesh);
 
 }  // namespace gridshell

@@ -83,7 +83,7 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     const FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
-    if (!holds_direction(k % 2 == 0 ? rod.begin : rod.end)) continue;
+    if (!fixes_direction(k % 2 == 0 ? rod.begin : rod.end)) continue;
     const Eigen::Vector3d tangent =
         rod.tangent_in_space(k % 2 == 0 ? rod.span.begin : rod.span.end);
     scene.motion.begin_tangent.col(k) =
@@ -164,7 +164,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
       for (RodEnd* end : {&rod.begin, &rod.end})
         if (*end == RodEnd::pinned) *end = hold_as(preset.ends.kind);
   if (std::ranges::any_of(scene.footprint.rods, [](const FootprintRod& rod) {
-        return holds_direction(rod.begin) || holds_direction(rod.end);
+        return fixes_direction(rod.begin) || fixes_direction(rod.end);
       }))
     TRY_DO(hold_directions(edge_points(scene.footprint), scene));
   if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));

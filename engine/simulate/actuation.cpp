@@ -111,7 +111,7 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
   // a contact on the segment back would have stopped the path in the other direction
   const bool stopped = simulation.scene().stops_at_contact &&
                        std::ranges::any_of(back.load_steps, [](const LoadStep& load_step) {
-                         return !load_step.contacts.places.empty();
+                         return !load_step.contacts.interpenetrations.empty();
                        });
   if (connected && (stopped || simulation.scene().imperfection.chooses())) {
     const bool straight =

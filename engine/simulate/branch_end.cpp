@@ -14,11 +14,11 @@ constexpr double fraction_of_loads = 4;  // change over the loads that counts as
 }  // namespace
 
 void Event::extrapolate(const Location& other) {
-  const double times = double(placed.edges) / other.edges;
-  const double left = (placed.t - other.t) / (times * times - 1);
+  const double times = double(location.edges) / other.edges;
+  const double left = (location.t - other.t) / (times * times - 1);
   // a limit is that of the finest mesh, whose state is saved
-  if (!is_limit()) t = placed.t + left;
-  error = std::abs(left) + placed.located + other.located;
+  if (!is_limit()) t = location.t + left;
+  error = std::abs(left) + location.located + other.located;
 }
 
 /// The branch ended between `good` and `next`. The path continues from another equilibrium, or
@@ -35,7 +35,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   if (now() != good.t) note();
   const NestedState end_of_branch = shell_.state();
   Event event{.kind = kind, .t = shell_.followed().t, .error = {}, .to = {}};
-  event.placed = {shell_.plan().edges_per_segment.back(), event.t, located_to()};
+  event.location = {shell_.plan().edges_per_segment.back(), event.t, located_to()};
   confirm(event);
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
     events_.push_back(std::move(event));
@@ -121,7 +121,7 @@ bool Simulation::Walk::leave_to(double there, const PathPoint& last, Event& even
     return true;
   }
   shell_.back_to(shell_.state());
-  shell_.place(last.t, last.state);
+  shell_.start_path(last.t, last.state);
   return false;
 }
 
@@ -162,7 +162,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   const Event to_far = event;
   for (double beyond = nearest / 2; beyond > nearest_by_far; beyond /= 2) {
     shell_.back_to(far);
-    shell_.place(last.t, last.state);
+    shell_.start_path(last.t, last.state);
     if (leave_to(at(beyond), last, event, moments) && !skipped_a_branch(last)) return true;
     if (watch_.cancelled()) return false;
   }
@@ -184,7 +184,7 @@ double Simulation::Walk::located_to() const {
 
 Outcome Simulation::Walk::end_at(Event limit) {
   limit.t = now();
-  limit.placed = {shell_.plan().edges_per_segment.back(), limit.t};
+  limit.location = {shell_.plan().edges_per_segment.back(), limit.t};
   events_.push_back(std::move(limit));
   return outcome_of(events_.back().kind);
 }

@@ -186,7 +186,7 @@ Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& 
   options.step_s = scene.snap.step_s;
   options.damping_per_s = scene.snap.damping_per_s;
   options.tolerance_mm = 1e-7;
-  DampedMotion damped(system.model(), *mass, options, system.outside, system.holds());
+  DampedMotion damped(system.model(), *mass, options, system.outside, system.constraints());
   MovingState moving = MovingState::at_rest(from);
   TRY_DO(damped.settle(moving, rest, seen, watch));
   system.gradient_at(moving.state);

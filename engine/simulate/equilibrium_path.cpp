@@ -22,7 +22,7 @@ const LoadStep& load_step_after(const PathSegment& segment, double t) {
 bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
   const double sign = segment.sign(), from = sign * a.point.t, to = sign * b.point.t;
   return from < to && std::ranges::none_of(segment.report.events, [&](const Event& event) {
-           const double lost = event.placed.t;
+           const double lost = event.location.t;
            const auto [begin, end] = std::minmax({sign * lost, sign * event.to.value_or(lost)});
            return begin < to && end > from;
          });
@@ -166,20 +166,20 @@ record::Limit limit_of(Outcome end) {
 /// A sentence on why a segment ended before its requested end.
 std::string how_it_ended(const PathSegment& segment, double max_strain, const At& at) {
   const Report& report = segment.report;
-  const auto place = [&] {
+  const auto where = [&] {
     return at(report.t, report.events.empty() ? std::nullopt : report.events.back().error);
   };
   const bool begun = report.t == segment.from;
   if (report.end == Outcome::overbent)
     return fmt::format("{} a rod is strained {} [limits] {} allows",
-                       begun ? "where the path begins, " + at(report.t, {}) + "," : place(),
+                       begun ? "where the path begins, " + at(report.t, {}) + "," : where(),
                        begun ? "further than" : "as far as", report.events.back().what);
   if (report.end == Outcome::locked && !report.events.back().what.empty())
     return fmt::format(
         "{} the shell snaps, to an equilibrium in which the rods are longer or shorter than "
         "[limits] "
         "max_strain allows",
-        place());
+        where());
   const double strain = report.certificate.largest_strain;
   const bool strained = locked_by_strain(strain, max_strain);
   if (report.end == Outcome::locked && strained && strain < 0)
@@ -191,10 +191,10 @@ std::string how_it_ended(const PathSegment& segment, double max_strain, const At
     return at(report.t, {}) + " " + text_of_locking(strain, max_strain);
   if (report.end == Outcome::contact) {
     const std::string& what = report.events.back().what;
-    const bool touched = !segment.load_steps.back().contacts.places.empty();
+    const bool touched = !segment.load_steps.back().contacts.interpenetrations.empty();
     if (touched && begun) return what + " touch in the first state already, " + at(report.t, {});
-    if (touched) return place() + " what touched in the first state would overlap more: " + what;
-    return fmt::format("{} is the last state without contact: past it {} touch", place(), what);
+    if (touched) return where() + " what touched in the first state would overlap more: " + what;
+    return fmt::format("{} is the last state without contact: past it {} touch", where(), what);
   }
   if (segment.back)
     return fmt::format(
@@ -219,17 +219,17 @@ std::string limit_event(const Simulation& simulation, Outcome end) {
   if (end == Outcome::locked) return "locking";
   if (end == Outcome::overbent) return "strength";
   if (end != Outcome::contact) return "";
-  return simulation.contacts().places.empty() ? "last state without contact"
-                                              : "in contact from the start";
+  return simulation.contacts().interpenetrations.empty() ? "last state without contact"
+                                                         : "in contact from the start";
 }
 
-std::string branch_loss_places(std::span<const PathSegment> segments, const At& at, bool jump) {
-  std::string places;
+std::string branch_losses(std::span<const PathSegment> segments, const At& at, bool jump) {
+  std::string losses;
   for (const PathSegment& segment : segments)
     for (const Event& event : segment.report.events)
       if (event.to && event.jump == jump)
-        places += (places.empty() ? "" : " and ") + at(event.t, event.error);
-  return places;
+        losses += (losses.empty() ? "" : " and ") + at(event.t, event.error);
+  return losses;
 }
 
 void set_limit(EquilibriumPath& path, const At& at) {
@@ -245,17 +245,17 @@ void set_limit(EquilibriumPath& path, const At& at) {
       break;
     }
     const char* on_path = segment.back ? "on the path back to the flat " : "";
-    const auto branches = branch_loss_places({&segment, 1}, at, false);
+    const auto branches = branch_losses({&segment, 1}, at, false);
     if (!branches.empty())
       reported += fmt::format(
           "{}{}the path branches {} and continues without a snap to the side that the imperfection "
           "chose",
           reported.empty() ? "" : "; ", on_path, branches);
-    const auto places = branch_loss_places({&segment, 1}, at);
-    if (places.empty() || path.limit != record::Limit::none) continue;
+    const auto losses = branch_losses({&segment, 1}, at);
+    if (losses.empty() || path.limit != record::Limit::none) continue;
     path.limit = record::Limit::snap;
     reported += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
-                            reported.empty() ? "" : "; ", on_path, places);
+                            reported.empty() ? "" : "; ", on_path, losses);
   }
   if (path.limit_reason.empty()) path.limit_reason = reported;
   if (path.mesh_disagreement.empty()) return;

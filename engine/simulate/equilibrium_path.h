@@ -134,8 +134,7 @@ std::string limit_event(const Simulation& simulation, Outcome end);
 /// Parameters at which the segments lost a branch and continued in another equilibrium, by a snap
 /// (`jump`) or along a branch that bifurcates there: "at progress 0.0183 and at ..."; empty if none
 /// did.
-std::string branch_loss_places(std::span<const PathSegment> segments, const At& at,
-                               bool jump = true);
+std::string branch_losses(std::span<const PathSegment> segments, const At& at, bool jump = true);
 
 /// Sets `limit` and `limit_reason` from how the segments ended: the first that ended before its
 /// requested end, else the snaps. Switching to a branch is no limit; the sentence reports where it

@@ -222,8 +222,8 @@ Result<double> strain_on_net(const Scene& scene, std::size_t r) {
 /// ends do not bend it.
 double strain_by_ends(const Scene& scene, std::size_t r) {
   const FootprintRod& rod = scene.footprint.rods[r];
-  const auto held = [](RodEnd end) { return is_held(end) && end != RodEnd::sprung; };
-  if (rod.closed() || !held(rod.begin) || !held(rod.end)) return 0;
+  const auto fixed = [](RodEnd end) { return is_fixed(end) && end != RodEnd::sprung; };
+  if (rod.closed() || !fixed(rod.begin) || !fixed(rod.end)) return 0;
   const auto ends = scene.motion.end.middleCols<2>(2 * Eigen::Index(r));
   const double chord = (ends.col(1) - ends.col(0)).norm(), length = (rod.span.end - rod.span.begin);
   if (!(chord < length)) return 0;

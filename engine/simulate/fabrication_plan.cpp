@@ -41,8 +41,8 @@ CutRod cut(const FootprintRod& rod, const Scene& scene) {
 
 void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, const Scene& scene,
               std::vector<Pin>& pins) {
-  const auto add = [&](bool at_end, RodEnd held, double tail) {
-    if (!is_held(held)) return;
+  const auto add = [&](bool at_end, RodEnd kind, double tail) {
+    if (!is_fixed(kind)) return;
     const Eigen::Index end = 2 * r + at_end;
     pins.push_back({exports::pin_name(name, at_end), scene.motion.end.col(end), true});
     if (tail > 0)

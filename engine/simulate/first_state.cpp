@@ -128,7 +128,7 @@ Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& 
   const Eigen::Matrix2Xd flat = within_boundary(scene.footprint, mesh);
   // blocks that meet with a gap would tear the rods between them
   TRY(net, scene.blocks ? scene.blocks->closed(flat, 4 * spacing) : points_on(*scene.net, flat));
-  place_tails(scene, mesh, *net);
+  set_tails(scene, mesh, *net);
   net->conservativeResize(3, mesh.nodes());
   net->rightCols(mesh.beside_rods()) =
       shell.motion().at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());

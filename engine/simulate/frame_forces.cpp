@@ -33,7 +33,7 @@ std::vector<int> supports_of(const RodMesh& mesh) {
 }
 
 Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
-                              const std::vector<Constraint>& holds) {
+                              const std::vector<Constraint>& constraints) {
   const std::vector<int> supports = supports_of(mesh);
   std::vector<Eigen::Vector3d> on(std::size_t(mesh.rod_nodes()), Eigen::Vector3d::Zero());
   for (const int node : supports)
@@ -48,8 +48,8 @@ Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Ass
       if (end < mesh.rod_nodes()) on[std::size_t(end)] += at.gradient.col(beyond);
     }
   }
-  for (const Constraint& hold : holds)
-    on[std::size_t(hold.node)] = hold.part(at.gradient.col(hold.node));
+  for (const Constraint& constraint : constraints)
+    on[std::size_t(constraint.node)] = constraint.part(at.gradient.col(constraint.node));
   for (const MeshSpring& spring : mesh.springs)
     on[std::size_t(spring.node)] += at.gradient.col(spring.support);
   Eigen::Matrix3Xd reactions(3, long(supports.size()));
@@ -85,8 +85,8 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::
   // the second node of a joint with a spring
   for (int k = mesh.nodes(); k < model.nodes; ++k) acting.col(k - mesh.nodes()) += acting.col(k);
   const std::vector<int> supports = supports_of(mesh);
-  std::vector<int> place(std::size_t(mesh.nodes()), -1);
-  for (std::size_t k = 0; k < supports.size(); ++k) place[std::size_t(supports[k])] = int(k);
+  std::vector<int> column(std::size_t(mesh.nodes()), -1);
+  for (std::size_t k = 0; k < supports.size(); ++k) column[std::size_t(supports[k])] = int(k);
   Eigen::Matrix3Xd loads = acting(Eigen::all, supports);
   // distributes the forces between two supports as a beam does
   const auto hand_on = [&](std::size_t r, std::size_t from, std::size_t to) {
@@ -94,14 +94,14 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::
     for (std::size_t k = from + 1; k < to; ++k) {
       const double fraction = (s[k] - s[from]) / (s[to] - s[from]);
       const Eigen::Vector3d force = acting.col(mesh.rods[r][k]);
-      loads.col(place[std::size_t(mesh.rods[r][from])]) += (1 - fraction) * force;
-      loads.col(place[std::size_t(mesh.rods[r][to])]) += fraction * force;
+      loads.col(column[std::size_t(mesh.rods[r][from])]) += (1 - fraction) * force;
+      loads.col(column[std::size_t(mesh.rods[r][to])]) += fraction * force;
     }
   };
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     std::optional<std::size_t> before;
     for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
-      if (place[std::size_t(mesh.rods[r][k])] < 0) continue;
+      if (column[std::size_t(mesh.rods[r][k])] < 0) continue;
       if (before) hand_on(r, *before, k);
       before = k;
     }
@@ -131,8 +131,8 @@ Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
 namespace {
 
 /// Text on the position of a point on a rod: "u+3, 45.00 mm from its start, at joint [0, 1]".
-std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
-                         std::size_t point) {
+std::string location_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
+                            std::size_t point) {
   const std::vector<int>& nodes = mesh.rods[r];
   const std::vector<double>& position = mesh.position[r];
   const std::size_t first = mesh.is_ghost(nodes.front()) ? 1 : 0, k = first + point;
@@ -197,10 +197,10 @@ std::size_t points_of(const RodMesh& mesh, std::size_t rod) {
 }
 
 /// Text on the position of a point, counted over the points of all rods in order.
-std::string place_of(const Footprint& footprint, const RodMesh& mesh, std::size_t point) {
+std::string location_of(const Footprint& footprint, const RodMesh& mesh, std::size_t point) {
   std::size_t r = 0;
   while (point >= points_of(mesh, r)) point -= points_of(mesh, r++);
-  return place_on_rod(footprint, mesh, r, point);
+  return location_on_rod(footprint, mesh, r, point);
 }
 
 /// Writes the largest stress of a fibre at every point, E (|N|/EA + bending strain), and the
@@ -228,7 +228,7 @@ void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
   if (largest == counts.end()) return;
   frame.largest_stress_MPa = frame.stress_MPa.maxCoeff();
   if (!scene.strength_MPa.empty()) frame.utilisation = *largest;
-  frame.stress_at = place_of(scene.footprint, mesh, std::size_t(largest - counts.begin()));
+  frame.stress_at = location_of(scene.footprint, mesh, std::size_t(largest - counts.begin()));
 }
 
 }  // namespace
@@ -249,7 +249,8 @@ void put_strains(const Scene& scene, const RodMesh& mesh, const Model& model,
   const auto largest = std::ranges::max_element(strain);
   if (largest == strain.end()) return;
   frame.largest_bending_strain = *largest;
-  frame.bending_strain_at = place_of(scene.footprint, mesh, std::size_t(largest - strain.begin()));
+  frame.bending_strain_at =
+      location_of(scene.footprint, mesh, std::size_t(largest - strain.begin()));
   put_stress(scene, mesh, model, strain, frame);
 }
 

@@ -22,7 +22,7 @@ std::vector<int> supports_of(const RodMesh& mesh);
 /// Reactions at the supports, N: the complete force on a pinned node, including the couple that
 /// clamps its end; at a joint the constrained components; at a spring support the spring's force.
 Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
-                              const std::vector<Constraint>& holds);
+                              const std::vector<Constraint>& constraints);
 
 /// External forces in a state at `x`, N, on the nodes that supports_of() lists: forces between two
 /// of them are distributed to both as by a beam, so that the sum is that of all forces. Empty:

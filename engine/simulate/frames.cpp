@@ -59,7 +59,7 @@ Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Ei
 }
 
 void put_contacts(const record::Contacts& found, record::Frame& frame) {
-  frame.contacts = int(found.places.size());
+  frame.contacts = int(found.interpenetrations.size());
   frame.rod_gap_mm = found.rod_gap_mm;
   frame.joint_gap_mm = found.joint_gap_mm;
 }
@@ -86,7 +86,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   std::vector<Energies> by_term;
   for (int k = shell.first_of_last_three(); k <= last; ++k) {
     const Assembly at = shell.forces(k);
-    reactions.push_back(reactions_of(shell.mesh(k), shell.model(k), at, simulation.holds()));
+    reactions.push_back(reactions_of(shell.mesh(k), shell.model(k), at, simulation.constraints()));
     energies.push_back(columns_of(at.energies));
     by_term.push_back(at.energies);
     if (k == last)
@@ -162,9 +162,9 @@ record::Summary summary_before(const preset::Preset& preset, const Scene& scene)
 std::string ends_on_balls(const Scene& scene) {
   const auto passes = [&](int joint) { return scene.rods.law(joint).twist_Nmm > 0; };
   const auto joints = int(scene.footprint.joints.size());
-  int held = 0, ends = 0;
-  for (int joint = 0; joint < joints; ++joint) held += passes(joint);
-  if (held == 0 || held == joints || scene.rod_model != RodModel::twist) return "";
+  int connected = 0, ends = 0;
+  for (int joint = 0; joint < joints; ++joint) connected += passes(joint);
+  if (connected == 0 || connected == joints || scene.rod_model != RodModel::twist) return "";
   std::set<int> balls;
   for (const FootprintRod& rod : scene.footprint.rods)
     for (const auto& [end, joint] :
@@ -178,7 +178,7 @@ std::string ends_on_balls(const Scene& scene) {
       "{} ends of rods are balls, at {} joints without a law ([{}, {}] first), though laws connect "
       "{} other joints: rods turn freely there and pass no bending or twist to one another",
       ends, balls.size(), scene.footprint.joints[std::size_t(*balls.begin())].i,
-      scene.footprint.joints[std::size_t(*balls.begin())].j, held);
+      scene.footprint.joints[std::size_t(*balls.begin())].j, connected);
   return text + "; \"law\": \"hinge\" in the network's file gives all joints one";
 }
 
@@ -229,7 +229,7 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   layout.actuated_boundary = scene.actuated_boundary;
   if (scene.net) {
     const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
-    TRY(net, places_on_net(scene, mesh));
+    TRY(net, positions_on_net(scene, mesh));
     layout.net_nodes = std::move(*net);
     layout.flat_nodes = scene.flat.all(flat);
   }

@@ -66,7 +66,7 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
 
 /// Why the push stopped or which events it passed, in the terms of a push: the first snap, or the
 /// segment that ended; empty if the common text applies.
-std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
+std::string reason_of(PushedShell& pushed, const At& at, const Watch& watch) {
   const Scene& scene = pushed.simulation.scene();
   if (pushed.limit == record::Limit::snap)
     for (const PathSegment& segment : pushed.segments)
@@ -88,7 +88,7 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
   return {};
 }
 
-void set_push_limit(HeldShell& pushed, const Watch& watch) {
+void set_push_limit(PushedShell& pushed, const Watch& watch) {
   const At at = at_depth(pushed.depth_mm());
   const auto disagreement = std::exchange(pushed.mesh_disagreement, {});
   set_limit(pushed, at);
@@ -98,19 +98,19 @@ void set_push_limit(HeldShell& pushed, const Watch& watch) {
     pushed.limit_reason += (pushed.limit_reason.empty() ? "" : "; ") + more;
   };
   // which shell was pushed depends on earlier events
-  if (const auto places = branch_loss_places(pushed.earlier, at_progress); !places.empty()) {
+  if (const auto losses = branch_losses(pushed.earlier, at_progress); !losses.empty()) {
     if (pushed.limit == record::Limit::none) pushed.limit = record::Limit::snap;
-    add("before the push the path lost its stability " + places +
+    add("before the push the path lost its stability " + losses +
         " and reached another equilibrium");
   }
   if (!disagreement.empty()) add(disagreement);
   pushed.mesh_disagreement = disagreement;
 }
 
-Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
-                              const preset::Indentation& requested, const LevelPlan& plan,
-                              const Watch& watch, const RunContext& context) {
-  auto pushed = hold_to_push(scene, requested, plan, watch, context);
+Result<PushedShell> follow_push(const std::shared_ptr<const Scene>& scene,
+                                const preset::Indentation& requested, const LevelPlan& plan,
+                                const Watch& watch, const RunContext& context) {
+  auto pushed = prepare_push(scene, requested, plan, watch, context);
   if (pushed && pushed->too_coarse()) return pushed;
   for (double to : requested.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     if (!pushed) break;
@@ -127,7 +127,7 @@ double progress_at_depth(bool unload, std::size_t segment, double t) {
   return segment == 0 ? t / 2 : 1 - t / 2;
 }
 
-Caption caption_of(const HeldShell& pushed, bool unload) {
+Caption caption_of(const PushedShell& pushed, bool unload) {
   const Simulation& simulation = pushed.simulation;
   return {at_depth(pushed.depth_mm()),
           [unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
@@ -177,7 +177,7 @@ void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSa
 
 }  // namespace
 
-double HeldShell::depth_mm() const { return push.displacement.norm(); }
+double PushedShell::depth_mm() const { return push.displacement.norm(); }
 
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
   if (std::ranges::find(footprint.fixed_joints, joint) == footprint.fixed_joints.end() ||
@@ -205,12 +205,12 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
 Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
                        const NestedShell& shell) {
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
-  Eigen::Matrix3Xd places = shell.state().x.leftCols(joints);
+  Eigen::Matrix3Xd positions = shell.state().x.leftCols(joints);
   if (scene.net) {
     TRY(net, points_on(*scene.net, shell.finest().flat.leftCols(joints)));
-    places = std::move(*net);
+    positions = std::move(*net);
   }
-  TRY(joint, pushed_joint(requested, scene.footprint, places));
+  TRY(joint, pushed_joint(requested, scene.footprint, positions));
   TRY_DO(not_on_boundary(scene.footprint, *joint));
   PushOf push{*joint};
   if (scene.net) {
@@ -230,25 +230,27 @@ Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
   return push;
 }
 
-Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
-                               const preset::Indentation& requested, const LevelPlan& plan,
-                               const Watch& watch, const RunContext& context) {
+Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
+                                 const preset::Indentation& requested, const LevelPlan& plan,
+                                 const Watch& watch, const RunContext& context) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch, context));
-  if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
+  if (actuated->too_coarse()) return PushedShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
   TRY(push, push_of(requested, *scene, simulation.shell()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
-  HeldShell held{std::move(*actuated), *push, std::move(before)};
-  held.earlier = std::exchange(held.segments, {});
-  for (PathSegment& segment : held.earlier) segment.free_states();
-  Constraint hold{push->joint};
-  if (requested.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
-  const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
+  PushedShell pushed{std::move(*actuated), *push, std::move(before)};
+  pushed.earlier = std::exchange(pushed.segments, {});
+  for (PathSegment& segment : pushed.earlier) segment.free_states();
+  Constraint constraint{push->joint};
+  if (requested.lateral == preset::Lateral::free)
+    constraint.directions = push->displacement.normalized();
+  const Report taken =
+      pushed.simulation.begin_joint_push({constraint}, {push->displacement}, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 "the unloaded shell has no equilibrium with the pushed joint fixed");
-  return held;
+  return pushed;
 }
 
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,

@@ -32,7 +32,7 @@ Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scen
                        const NestedShell& shell);
 
 /// An actuated shell with a constraint at the joint to be pushed, and the push.
-struct HeldShell : EquilibriumPath {
+struct PushedShell : EquilibriumPath {
   PushOf push;
   Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
 
@@ -41,9 +41,9 @@ struct HeldShell : EquilibriumPath {
 
 /// Actuates on the meshes of `plan` and constrains the joint. Errors: bad_input as push_of(),
 /// no_equilibrium (no shell to push, or none with the constraint), cancelled.
-Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
-                               const preset::Indentation& indentation, const LevelPlan& plan,
-                               const Watch& watch, const RunContext& context = {});
+Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
+                                 const preset::Indentation& indentation, const LevelPlan& plan,
+                                 const Watch& watch, const RunContext& context = {});
 
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (fraction of the depth;
 /// with `unload` of loading and unloading); the first is the unloaded shell. The solver chooses its

@@ -87,7 +87,7 @@ void put(auto& in, Is<record::Contact> auto& s) {
   all(in, s.kind, s.first, s.second, s.gap_mm, s.at);
 }
 void put(auto& in, Is<record::Contacts> auto& s) {
-  all(in, s.places, s.rod_gap_mm, s.joint_gap_mm);
+  all(in, s.interpenetrations, s.rod_gap_mm, s.joint_gap_mm);
 }
 void put(auto& in, Is<LoadStep> auto& s) {
   all(in, s.point, s.certificate, s.contacts, s.stability_confirmed);
@@ -97,12 +97,12 @@ void put(auto& in, Is<PathRecord::Snap> auto& s) { all(in, s.before, s.moments);
 void put(auto& in, Is<PathRecord> auto& s) { all(in, s.load_steps, s.snaps); }
 void put(auto& in, Is<Event::Location> auto& s) { all(in, s.edges, s.t, s.located); }
 void put(auto& in, Is<Event> auto& s) {
-  all(in, s.kind, s.t, s.error, s.to, s.jump, s.confirmed, s.what, s.placed);
+  all(in, s.kind, s.t, s.error, s.to, s.jump, s.confirmed, s.what, s.location);
 }
 void put(auto& in, Is<NestedState> auto& s) {
   all(in, s.t, s.levels, s.measured, s.velocity, s.step, s.lowest_eigenvalue, s.lowest_mode, s.x,
       s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain, s.reactions,
-      s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
+      s.reaction_error_N, s.constraint_stiffness, s.stiffness_error_N_per_mm);
 }
 void put(auto& in, Is<SegmentBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
 void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }

@@ -15,7 +15,7 @@ int edges_of(const EquilibriumPath& path) { return path.meshes.edges_per_segment
 /// Whether an event of a segment is near a path parameter: meshes may differ there.
 bool near_event(const PathSegment& segment, double t) {
   return std::ranges::any_of(segment.report.events, [&](const Event& event) {
-    const auto [from, to] = std::minmax({event.placed.t, event.t, event.to.value_or(event.t)});
+    const auto [from, to] = std::minmax({event.location.t, event.t, event.to.value_or(event.t)});
     return t > from - mesh_tolerances.same_event && t < to + mesh_tolerances.same_event;
   });
 }
@@ -70,7 +70,7 @@ void extrapolate_events(const std::vector<PathSegment>& coarse, std::vector<Path
   for (std::size_t k = 0; k < fine.size(); ++k)
     for (std::size_t e = 0; e < fine[k].report.events.size(); ++e) {
       Event& event = fine[k].report.events[e];
-      if (!event.confirmed) event.extrapolate(coarse[k].report.events[e].placed);
+      if (!event.confirmed) event.extrapolate(coarse[k].report.events[e].location);
     }
 }
 

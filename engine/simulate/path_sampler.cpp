@@ -107,7 +107,7 @@ Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
   // if there may be frames of snaps between the samples, all frames are counted
   frame.index = path_.simulation.scene().snap.requested ? taken_ : sample.index;
   frame.progress = sample.progress;
-  caption_.place(frame, sample.t, sample.progress);
+  caption_.set_position(frame, sample.t, sample.progress);
   ++taken_;
   watch_.report(0.5 + 0.5 * double(taken_) / double(count_));
   return sink_.take(std::move(frame));
@@ -142,15 +142,15 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
   std::string text;
   // snaps come first, as pictures mark a frame by the start of its text
   for (const bool jump : {true, false}) {
-    std::string places;
+    std::string passed;
     for (const Event& event : segment.report.events) {
       if (!event.to || event.jump != jump) continue;
       const double seen = segment.back ? event.t : *event.to;
       if (sign * (seen - before) <= 0 || sign * (past - seen) < 0) continue;
-      places += (places.empty() ? "" : " and ") + caption_.at(event.t, {});
+      passed += (passed.empty() ? "" : " and ") + caption_.at(event.t, {});
     }
-    if (!places.empty())
-      text += (text.empty() ? "" : "; ") + std::string(jump ? "snap " : "branches ") + places;
+    if (!passed.empty())
+      text += (text.empty() ? "" : "; ") + std::string(jump ? "snap " : "branches ") + passed;
   }
   for (const ContactEvent& event : path_.contacts) {
     if (event.segment != sample.segment) continue;

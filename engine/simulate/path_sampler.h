@@ -20,7 +20,7 @@ struct Caption {
   /// Progress of the experiment at path parameter t of a segment, from 0 to 1.
   std::function<double(std::size_t segment, double t)> progress;
   /// Writes the position of boundary and push at path parameter t.
-  std::function<void(record::Frame&, double t, double progress)> place;
+  std::function<void(record::Frame&, double t, double progress)> set_position;
   /// Measures forces and reach on the certified current state of the simulation, or, `between` load
   /// steps, on the frame alone.
   std::function<void(record::Frame&, double t, bool between)> measure;

@@ -157,7 +157,7 @@ void put_seams(const Scene& scene, record::Summary& s) {
 std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
-  if (!path.single_motion || !simulation.holds().empty()) return "";
+  if (!path.single_motion || !simulation.constraints().empty()) return "";
   constexpr double not_told_apart = 0.02;  // in units of d
   double least = scene.tolerance * scene.length_scale_mm / 4;
   if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
@@ -357,8 +357,8 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
   summary = summary_of(preset, *scene, sink);
   put_path(*path, summary);
   summary.steps = std::move(reported);
-  if (preset.indentation.requested() && !path->simulation.holds().empty()) {
-    const int pushed = path->simulation.holds().front().node;
+  if (preset.indentation.requested() && !path->simulation.constraints().empty()) {
+    const int pushed = path->simulation.constraints().front().node;
     const FootprintJoint& at = scene->footprint.joints[std::size_t(pushed)];
     summary.pushed_joint = fmt::format("[{}, {}]", at.i, at.j);
   }

@@ -273,7 +273,7 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
 }  // namespace
 
 Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint) {
-  std::set<std::vector<int>> held;
+  std::set<std::vector<int>> constrained;
   std::set<preset::Released> strengthened;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const preset::Step& step = steps[k];
@@ -283,7 +283,7 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
         return fail(joint.error().fault,
                     fmt::format("[[step]] {} {}", k + 1, joint.error().message));
     if (step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold)
-      held.insert(step.joint);
+      constrained.insert(step.joint);
     for (const auto& cell : step.cells)
       if (std::ranges::none_of(footprint.cells, [&](const FootprintCell& one) {
             return one.i == cell[0] && one.j == cell[1];
@@ -307,14 +307,14 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
       return invalid("[[step]] {} what: got {}, expected a step {} before it that adds them", k + 1,
                      word_of(step.what), bolts ? "\"tighten\" or \"open\"" : "\"brace\"");
     }
-    if (one ? !held.contains(step.joint) : held.empty())
+    if (one ? !constrained.contains(step.joint) : constrained.empty())
       return invalid(
           "[[step]] {}: got no prescribed joint, expected a step \"push\" or \"hold\" before it",
           k + 1);
     if (one)
-      held.erase(step.joint);
+      constrained.erase(step.joint);
     else
-      held.clear();
+      constrained.clear();
   }
   return {};
 }

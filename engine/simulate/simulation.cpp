@@ -86,14 +86,14 @@ Report Simulation::report(Outcome end, double t, const CallBegin& begin) const {
 }
 
 void Simulation::put_push(record::Frame& frame) const {
-  if (holds_.empty()) return;
-  const Constraint& hold = holds_.back();
-  const auto origin = constraint_origins.find(hold.node);
+  if (constraints_.empty()) return;
+  const Constraint& constraint = constraints_.back();
+  const auto origin = constraint_origins.find(constraint.node);
   if (origin == constraint_origins.end()) return;
-  const Eigen::Vector3d moved = hold.part(nodes().col(hold.node) - origin->second);
+  const Eigen::Vector3d moved = constraint.part(nodes().col(constraint.node) - origin->second);
   frame.depth_mm = moved.norm();
   const bool any = frame.depth_mm > nearest_mm;
-  frame.force_N = any ? hold.part(force(holds_.size() - 1)).dot(moved.normalized()) : 0;
+  frame.force_N = any ? constraint.part(force(constraints_.size() - 1)).dot(moved.normalized()) : 0;
   put_push_errors(frame);
 }
 
@@ -101,13 +101,14 @@ void Simulation::put_push_errors(record::Frame& frame) const {
   const NestedState& state = shell_->state();
   frame.push_error_N = state.reaction_error_N;
   // the stiffness is that of the last constraint, with the others fixed
-  const Eigen::Index entries = state.held_stiffness.rows(), own = holds_.back().directions.cols();
+  const Eigen::Index entries = state.constraint_stiffness.rows(),
+                     own = constraints_.back().directions.cols();
   const Eigen::VectorXd along =
       along_.size() == entries ? Eigen::VectorXd(along_.tail(own)) : Eigen::VectorXd();
   if (along.size() == 0 || along.isZero(0)) return;
   const Eigen::VectorXd direction = along.normalized();
   frame.stiffness_N_per_mm =
-      direction.dot(state.held_stiffness.bottomRightCorner(own, own) * direction);
+      direction.dot(state.constraint_stiffness.bottomRightCorner(own, own) * direction);
   // the state's error is that of one entry of the matrix
   frame.stiffness_error_N_per_mm =
       std::pow(direction.lpNorm<1>(), 2) * state.stiffness_error_N_per_mm;
@@ -122,7 +123,7 @@ Energies Simulation::energies() const {
 bool Simulation::locked() const {
   const NestedState& state = shell_->state();
   if (std::abs(state.largest_strain) > scene_->max_strain) return true;
-  if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
+  if (actuating_ || constraints_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
 }
 
@@ -155,9 +156,9 @@ Simulation::Limits Simulation::limits_here() const {
   Limits here = limits();
   if (scene_->limits_strength()) here.strained = std::max(here.strained, strained().first);
   if (scene_->stops_at_contact)
-    for (const record::Contact& place : contacts().places) {
-      double& gap = here.gap_mm[std::size_t(place.kind)];
-      gap = std::min(gap, place.gap_mm);
+    for (const record::Contact& contact : contacts().interpenetrations) {
+      double& gap = here.gap_mm[std::size_t(contact.kind)];
+      gap = std::min(gap, contact.gap_mm);
     }
   return here;
 }
@@ -173,16 +174,16 @@ std::optional<Event> Simulation::beyond(const Limits& limits) const {
   }
   if (!scene_->stops_at_contact) return std::nullopt;
   met.kind = Event::Kind::contact;
-  for (const record::Contact& place : contacts().places)
-    if (place.gap_mm < limits.gap_mm[std::size_t(place.kind)]) {
-      met.what = simulate::text_of(place, scene_->footprint);
+  for (const record::Contact& contact : contacts().interpenetrations)
+    if (contact.gap_mm < limits.gap_mm[std::size_t(contact.kind)]) {
+      met.what = simulate::text_of(contact, scene_->footprint);
       return met;
     }
   return std::nullopt;
 }
 
 double Simulation::push_stiffness() const {
-  return along_.dot(shell_->state().held_stiffness * along_);
+  return along_.dot(shell_->state().constraint_stiffness * along_);
 }
 
 // ---- first state ----
@@ -201,7 +202,7 @@ Report Simulation::begin_flat() {
     flat.x = nodes_of(shell_->mesh(k), shell_->model(k), flat.levels.back().x);
   }
   shell_->restore(flat, shell_->motions(), {});
-  holds_.clear();
+  constraints_.clear();
   actuating_ = true;
   set_progress(0);
   return report(Outcome::reached, 0, begin);
@@ -235,7 +236,7 @@ Report Simulation::begin_refined(double t, const State& coarse, const Watch& wat
 Report Simulation::begin_at(double t, const State& fine, const Watch& watch) {
   const CallBegin begin = call_begin();
   actuating_ = true;
-  holds_.clear();
+  constraints_.clear();
   shell_->actuate(t, {}, load_scale_);
   const NestedReport nested = shell_->start(t, fine, watch);
   if (nested.end == Outcome::reached) set_progress(progress_at(t));
@@ -260,8 +261,8 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   use(*built);
   shell_->set_fields(field_, {});
   const double t = actuating_ ? before->state().t : 0;
-  State state = shell_->stay(*before, holds_);
-  if (actuating_) shell_->actuate(t, holds_, load_scale_);
+  State state = shell_->stay(*before, constraints_);
+  if (actuating_) shell_->actuate(t, constraints_, load_scale_);
   if (nearby) {
     shell_->motion().impose(shell_->system(), t, state);
     if (auto rest =
@@ -278,20 +279,9 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(),
-          shell_,
-          rods_,
-          shell_->motions(),
-          holds_,
-          field_,
-          load_scale_,
-          progress_,
-          actuating_,
-          boundary,
-          constraint_origins,
-          cases,
-          first_stiffness_,
-          along_};
+  return {shell_->state(),  shell_,    rods_,      shell_->motions(), constraints_,       field_,
+          load_scale_,      progress_, actuating_, boundary,          constraint_origins, cases,
+          first_stiffness_, along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
@@ -300,7 +290,7 @@ void Simulation::restore(const Checkpoint& kept) {
     rods_ = kept.rods;
     use(kept.shell);
   }
-  holds_ = kept.holds;
+  constraints_ = kept.constraints;
   load_scale_ = kept.load_scale;
   progress_ = kept.progress;
   actuating_ = kept.actuating;
@@ -310,7 +300,7 @@ void Simulation::restore(const Checkpoint& kept) {
   first_stiffness_ = kept.first_stiffness;
   along_ = kept.along;
   apply_field(kept.field);
-  shell_->restore(kept.state, kept.motions, kept.holds);
+  shell_->restore(kept.state, kept.motions, kept.constraints);
 }
 
 }  // namespace gridshell

@@ -49,7 +49,7 @@ struct Event {
     int edges = 0;  ///< per segment
     /// Path parameter, and the width of the interval in which it was located.
     double t = 0, located = 0;
-  } placed = {};  ///< on the finest mesh
+  } location = {};  ///< on the finest mesh
 
   /// Sets t and its error by Richardson extrapolation (second order) with the event of another
   /// mesh.
@@ -154,7 +154,7 @@ struct Checkpoint {
   std::optional<ShellRods> rods;
   std::vector<PinnedMotion> motions;  ///< one per mesh level
   /// Constrained joints.
-  std::vector<Constraint> holds;
+  std::vector<Constraint> constraints;
   /// Applied load, N on each joint.
   std::vector<NodeAction> field;
   /// Factor of the dead loads; progress of the actuation, from 0 to 1.
@@ -174,7 +174,7 @@ struct Checkpoint {
 inline constexpr double nearest_mm = 1e-9;
 
 /// Whether a pushed joint may move perpendicular to the push.
-enum class Across { free, held };
+enum class Across { free, fixed };
 
 namespace simulate {
 class KeptSegments;
@@ -250,8 +250,8 @@ class Simulation {
   Report refine(double tolerance_mm, const Watch& watch);
   /// Prepares a push of several joints that go() then follows: one constraint and one
   /// displacement, mm, for each.
-  Report begin_joint_push(std::vector<Constraint> holds, std::vector<Eigen::Vector3d> displacements,
-                          const Watch& watch);
+  Report begin_joint_push(std::vector<Constraint> constraints,
+                          std::vector<Eigen::Vector3d> displacements, const Watch& watch);
 
   // ---- save and restore ----
 
@@ -267,9 +267,9 @@ class Simulation {
   /// Positions of the nodes of the finest mesh, mm, 3 x nodes, extrapolated where planned; joints
   /// first.
   const Eigen::Matrix3Xd& nodes() const { return shell_->state().x; }
-  /// Reaction at constraint `k` of holds(), N.
+  /// Reaction at constraint `k` of constraints(), N.
   Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
-  const std::vector<Constraint>& holds() const { return holds_; }
+  const std::vector<Constraint>& constraints() const { return constraints_; }
   const std::vector<NodeAction>& field() const { return field_; }
   const ShellRods& rods() const { return rods_ ? *rods_ : scene_->rods; }
   /// Factor of the dead loads, and its increment in a drive.
@@ -348,7 +348,7 @@ class Simulation {
   /// The meshes built for rods(), by edges per segment. A drag alternates between two of them.
   std::vector<std::shared_ptr<NestedShell>> built_;
   std::optional<record::ContactSearch> search_;  // on the finest mesh
-  std::vector<Constraint> holds_;
+  std::vector<Constraint> constraints_;
   std::vector<NodeAction> field_;  // the applied load
   double load_scale_ = 1;          // factor of the scene's dead loads
   double progress_ = 0;

@@ -44,10 +44,10 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
                          const Watch& watch, PathRecord* record) {
   const CallBegin begin = call_begin();
   const Checkpoint before = save();
-  const std::vector<Constraint> held = drive.holds;
+  const std::vector<Constraint> constraints = drive.constraints;
   shell_->set_fields(field_, coming);
   shell_->drive(drive);
-  holds_ = held;
+  constraints_ = constraints;
   actuating_ = false;
   first_stiffness_ = 0;
   const Outcome started = start_here(0, before, watch);
@@ -66,7 +66,7 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
   if (!actuating_) {
     const double now = parameter_at(progress_);
     const Checkpoint before = save();
-    shell_->actuate(now, holds_, load_scale_);
+    shell_->actuate(now, constraints_, load_scale_);
     actuating_ = true;
     const Outcome started = start_here(now, before, watch);
     if (started != Outcome::reached) return report(started, now, call_begin());
@@ -76,24 +76,26 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
 
 Report Simulation::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
   const LoadFactor load = steady_load();
-  return drive({.holds = holds_, .displacements = {}, .boundary = motion, .load = load}, {}, watch);
+  return drive({.constraints = constraints_, .displacements = {}, .boundary = motion, .load = load},
+               {}, watch);
 }
 
-Report Simulation::begin_joint_push(std::vector<Constraint> holds,
+Report Simulation::begin_joint_push(std::vector<Constraint> constraints,
                                     std::vector<Eigen::Vector3d> displacements,
                                     const Watch& watch) {
   const CallBegin begin = call_begin();
   const Checkpoint before = save();
   const LoadFactor load = steady_load();
   along_.resize(0);
-  for (std::size_t k = 0; k < holds.size(); ++k) {
-    const Eigen::VectorXd part = holds[k].directions.transpose() * displacements[k];
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    const Eigen::VectorXd part = constraints[k].directions.transpose() * displacements[k];
     along_.conservativeResize(along_.size() + part.size());
     along_.tail(part.size()) = part;
   }
   along_.normalize();
-  shell_->drive({.holds = holds, .displacements = std::move(displacements), .load = load});
-  holds_ = std::move(holds);
+  shell_->drive(
+      {.constraints = constraints, .displacements = std::move(displacements), .load = load});
+  constraints_ = std::move(constraints);
   actuating_ = false;
   const Outcome started = start_here(0, before, watch);
   if (started == Outcome::reached) first_stiffness_ = push_stiffness();
@@ -102,43 +104,46 @@ Report Simulation::begin_joint_push(std::vector<Constraint> holds,
 
 Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,
                         const Watch& watch, PathRecord* record) {
-  std::vector<Constraint> holds = holds_;
-  std::erase_if(holds, [&](const Constraint& hold) { return hold.node == joint; });
-  Constraint hold{joint};
-  if (across == Across::free) hold.directions = displacement.normalized();
-  holds.push_back(hold);
+  std::vector<Constraint> constraints = constraints_;
+  std::erase_if(constraints,
+                [&](const Constraint& constraint) { return constraint.node == joint; });
+  Constraint constraint{joint};
+  if (across == Across::free) constraint.directions = displacement.normalized();
+  constraints.push_back(constraint);
   // a push that continues the last one is compared with the stiffness at the start of that one
-  const bool goes_on = !holds_.empty() && holds_.back().node == joint &&
-                       holds_.back().directions.cols() == hold.directions.cols() &&
-                       holds_.back().part(displacement).isApprox(displacement, 1e-6);
+  const bool goes_on = !constraints_.empty() && constraints_.back().node == joint &&
+                       constraints_.back().directions.cols() == constraint.directions.cols() &&
+                       constraints_.back().part(displacement).isApprox(displacement, 1e-6);
   const double first_stiffness = goes_on ? first_stiffness_ : 0;
-  std::vector<Eigen::Vector3d> displacements(holds.size(), Eigen::Vector3d::Zero());
+  std::vector<Eigen::Vector3d> displacements(constraints.size(), Eigen::Vector3d::Zero());
   displacements.back() = displacement;
-  const Report taken = begin_joint_push(std::move(holds), std::move(displacements), watch);
+  const Report taken = begin_joint_push(std::move(constraints), std::move(displacements), watch);
   if (taken.end != Outcome::reached) return taken;
   if (first_stiffness > 0) first_stiffness_ = first_stiffness;
   return go(1, watch, {}, record);
 }
 
 Report Simulation::release(int joint, const Watch& watch) {
-  std::vector<Constraint> left = holds_;
+  std::vector<Constraint> left = constraints_;
   std::vector<NodeAction> force;
-  for (std::size_t k = 0; k < holds_.size(); ++k)
-    if (holds_[k].node == joint) force.push_back({joint, holds_[k].part(this->force(k))});
-  std::erase_if(left, [&](const Constraint& hold) { return hold.node == joint; });
+  for (std::size_t k = 0; k < constraints_.size(); ++k)
+    if (constraints_[k].node == joint)
+      force.push_back({joint, constraints_[k].part(this->force(k))});
+  std::erase_if(left, [&](const Constraint& constraint) { return constraint.node == joint; });
   const LoadFactor load = steady_load();
-  const Checkpoint held = save();
-  Report done = drive({.holds = left, .load = load, .field = {1, -1}}, std::move(force), watch);
+  const Checkpoint constrained = save();
+  Report done =
+      drive({.constraints = left, .load = load, .field = {1, -1}}, std::move(force), watch);
   if (done.end == Outcome::reached || at_limit(done.end) || watch.cancelled()) return done;
   // the state was stable with the constraint but is not under the same force: the constraint is
   // removed, and the energy minimised
-  restore(held);
-  shell_->drive({.holds = left, .load = load});
-  holds_ = left;
+  restore(constrained);
+  shell_->drive({.constraints = left, .load = load});
+  constraints_ = left;
   const auto found = minimise_from(shell_->system(), shell_->state().levels.back(), watch);
   Outcome end = Outcome::not_converged;
   if (found) end = shell_->start(0, *found, watch).end;
-  if (end != Outcome::reached) restore(held);
+  if (end != Outcome::reached) restore(constrained);
   done.certificate = certificate();
   done.end = watch.cancelled() ? Outcome::cancelled : end;
   return done;
@@ -147,7 +152,7 @@ Report Simulation::release(int joint, const Watch& watch) {
 Report Simulation::load(double factor, const Watch& watch) {
   const double change = factor - load_scale_;
   const LoadFactor load{steady_load().begin, change * progress_};
-  Report done = drive({.holds = holds_, .load = load}, {}, watch);
+  Report done = drive({.constraints = constraints_, .load = load}, {}, watch);
   load_scale_ += done.t * change;
   return done;
 }
@@ -155,7 +160,7 @@ Report Simulation::load(double factor, const Watch& watch) {
 Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch, double dead) {
   const LoadFactor load{steady_load().begin, dead * progress_};
   const std::vector<NodeAction> coming = difference(field, field_);
-  Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
+  Report done = drive({.constraints = constraints_, .load = load, .field = {0, 1}}, coming, watch);
   load_scale_ += done.t * dead;
   if (done.end == Outcome::reached) apply_field(std::move(field));
   return done;
@@ -163,7 +168,7 @@ Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch, 
 
 Report Simulation::open_joints(const Watch& watch, PathRecord* record) {
   const LoadFactor load = steady_load();
-  return drive({.holds = holds_, .load = load, .opening = {0, 1}}, {}, watch, record);
+  return drive({.constraints = constraints_, .load = load, .opening = {0, 1}}, {}, watch, record);
 }
 
 Report Simulation::rest(const Watch& watch, BranchSide side) {

@@ -63,10 +63,10 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
   TRY(joint, joint_of(step, simulation.scene().footprint));
   TRY_DO(not_on_boundary(simulation.scene().footprint, *joint));
   const Eigen::Vector3d at = simulation.nodes().col(*joint);
-  const bool holds = step.kind == preset::StepKind::hold;
+  const bool constrains = step.kind == preset::StepKind::hold;
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
-  if (!holds && !step.to_mm.empty()) displacement = vector_of(step.to_mm) - at;
-  if (!holds && step.to_mm.empty()) {
+  if (!constrains && !step.to_mm.empty()) displacement = vector_of(step.to_mm) - at;
+  if (!constrains && step.to_mm.empty()) {
     const Eigen::Vector3d normal =
         joint_normal(simulation.scene().footprint, simulation.shell(), *joint);
     if (normal.isZero(0))
@@ -76,7 +76,7 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
     displacement = -step.depth_mm * normal;
   }
   Goal goal{*joint, at + displacement, Eigen::Vector3d::UnitZ(), false};
-  goal.free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
+  goal.free = constrains ? !step.along.empty() : step.lateral == preset::Lateral::free;
   if (!step.along.empty())
     goal.along = vector_of(step.along).normalized();
   else if (displacement.norm() >= nearest_mm)
@@ -91,7 +91,7 @@ Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch
   // a push without displacement constrains the joint along the push direction
   if (displacement.norm() < nearest_mm) displacement = nearest_mm * goal.along;
   const Report report = simulation.push(goal.joint, displacement,
-                                        goal.free ? Across::free : Across::held, watch, path);
+                                        goal.free ? Across::free : Across::fixed, watch, path);
   if (path) path->end = simulation.save();
   return report;
 }
@@ -99,11 +99,12 @@ Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch
 Result<Report> release(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   std::vector<int> joints;
   if (step.joint.empty()) {
-    for (const Constraint& hold : simulation.holds()) joints.push_back(hold.node);
+    for (const Constraint& constraint : simulation.constraints()) joints.push_back(constraint.node);
   } else {
     TRY(joint, joint_of(step, simulation.scene().footprint));
-    if (std::ranges::any_of(simulation.holds(),
-                            [&](const Constraint& hold) { return hold.node == *joint; }))
+    if (std::ranges::any_of(simulation.constraints(), [&](const Constraint& constraint) {
+          return constraint.node == *joint;
+        }))
       joints = {*joint};
   }
   if (joints.empty()) return invalid("got no prescribed joint, expected one before a release");
@@ -201,8 +202,9 @@ Result<Report> apply_step(Simulation& simulation, const preset::Step& step, cons
                           StepPath* path) {
   auto report = take_step(simulation, step, watch, path);
   std::erase_if(simulation.constraint_origins, [&](const auto& origin) {
-    return std::ranges::none_of(simulation.holds(),
-                                [&](const Constraint& hold) { return hold.node == origin.first; });
+    return std::ranges::none_of(simulation.constraints(), [&](const Constraint& constraint) {
+      return constraint.node == origin.first;
+    });
   });
   return report;
 }

@@ -226,7 +226,7 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
     on = cases.insert(cases.end(), {name, forces_of(*known, scene.footprint, simulation.nodes()),
                                     known->dead, 0});
   const double more = factor - on->factor, before = on->factor;
-  const auto place = on - cases.begin();
+  const auto index = on - cases.begin();
   std::vector<NodeAction> field = simulation.field();
   for (NodeAction action : on->forces) {
     action *= more;
@@ -240,9 +240,9 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
       there->force += action.force, there->pressure += action.pressure;
   }
   const Report done = simulation.set_field(std::move(field), watch, more * on->dead);
-  CaseOnShell& now = cases[std::size_t(place)];
+  CaseOnShell& now = cases[std::size_t(index)];
   now.factor = done.end == Outcome::reached ? factor : before + done.t * more;
-  if (now.factor == 0) cases.erase(cases.begin() + place);
+  if (now.factor == 0) cases.erase(cases.begin() + index);
   return done;
 }
 

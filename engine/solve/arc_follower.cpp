@@ -62,8 +62,9 @@ bool ArcFollower::corrected(ArcPoint& next, int& iterations, const Watch& watch)
     if (!next.inertia.usable) return false;
     system_->correction(dx);
     motion_.velocity(*system_, point.t, point.state, with_t);
-    const State held{dx, {}};
-    const double dt = -product(held, 0, tangent, turn_t_) / product(with_t, 1, tangent, turn_t_);
+    const State at_fixed_t{dx, {}};
+    const double dt =
+        -product(at_fixed_t, 0, tangent, turn_t_) / product(with_t, 1, tangent, turn_t_);
     dx += dt * with_t.x;
     const double move = max_column_norm(dx);
     if (!std::isfinite(move) || move > 4 * options_.largest_mm) return false;

@@ -71,7 +71,7 @@ class BlockCholesky final : public LinearSolver {
     for (std::size_t k = 0; k < order_.size(); ++k) {
       load(b.col(column_[k]), x[k].value);
       for (int c = 0; partly_[k] && c < 3; ++c)
-        if (model_.held[std::size_t(column_[k])] >> c & 1) x[k].value[c] = 0;
+        if (model_.fixed[std::size_t(column_[k])] >> c & 1) x[k].value[c] = 0;
     }
     solve_numbers(factor_, x.data(), team);
     b.setZero();
@@ -102,8 +102,8 @@ class BlockCholesky final : public LinearSolver {
   /// row is this one.
   void find_structure(const std::vector<std::vector<int>>& graph) {
     const int n = int(order_.size());
-    place_.resize(order_.size());
-    for (int k = 0; k < n; ++k) place_[order_[k]] = k;
+    position_.resize(order_.size());
+    for (int k = 0; k < n; ++k) position_[order_[k]] = k;
     factor_ = {};
     factor_.columns = n;
     factor_.first.assign(1, 0);
@@ -116,7 +116,7 @@ class BlockCholesky final : public LinearSolver {
       const auto take = [&](int row) {
         if (row > k && seen[row] != k) seen[row] = k, rows.push_back(row);
       };
-      for (int other : graph[order_[k]]) take(place_[other]);
+      for (int other : graph[order_[k]]) take(position_[other]);
       for (int child = last_child[k]; child >= 0; child = child_before[child])
         for (int i = factor_.first[child]; i < factor_.first[child + 1]; ++i) take(rows[i]);
       std::sort(rows.begin() + long(begin), rows.end());
@@ -174,14 +174,14 @@ class BlockCholesky final : public LinearSolver {
       const int a = model_.free_index[std::size_t(row)], b = model_.free_index[std::size_t(column)];
       if (a < 0 || b < 0) continue;
       // the block is stored with the later node as row
-      const bool turn = place_[a] < place_[b];
-      const int to = turn ? slot(place_[b], place_[a]) : slot(place_[a], place_[b]);
+      const bool turn = position_[a] < position_[b];
+      const int to = turn ? slot(position_[b], position_[a]) : slot(position_[a], position_[b]);
       filled[std::size_t(to)] = 1;
-      const bool partly = model_.held[std::size_t(row)] || model_.held[std::size_t(column)];
+      const bool partly = model_.fixed[std::size_t(row)] || model_.fixed[std::size_t(column)];
       (turn ? turned_ : straight_).push_back({k, to});
       if (partly) (turn ? partly_turned_ : partly_straight_).push_back({k, to});
     }
-    for (int column : column_) partly_.push_back(model_.held[std::size_t(column)] != 0);
+    for (int column : column_) partly_.push_back(model_.fixed[std::size_t(column)] != 0);
     return filled;
   }
 
@@ -228,26 +228,26 @@ class BlockCholesky final : public LinearSolver {
       for (std::size_t k = begin; k < end; ++k)
         std::fill(factor_.below + empty_[k].begin, factor_.below + empty_[k].end, Block3{});
     });
-    const auto held_pair = [&](int pair) {
+    const auto pair_block = [&](int pair) {
       const auto [row, column] = model_.pattern.pairs()[std::size_t(pair)];
-      return without_held(model_, row, column, hessian.pair[std::size_t(pair)].matrix());
+      return without_fixed(model_, row, column, hessian.pair[std::size_t(pair)].matrix());
     };
     for (const auto& [from, to] : partly_straight_)
-      factor_.below[std::size_t(to)].matrix() = held_pair(from);
+      factor_.below[std::size_t(to)].matrix() = pair_block(from);
     for (const auto& [from, to] : partly_turned_)
-      factor_.below[std::size_t(to)].matrix() = held_pair(from).transpose();
+      factor_.below[std::size_t(to)].matrix() = pair_block(from).transpose();
     for (std::size_t k = 0; k < column_.size(); ++k) {
       Block3& d = factor_.diagonal[k];
       d = hessian.diagonal[std::size_t(column_[k])];
-      if (partly_[k]) d.matrix() = without_held(model_, column_[k], column_[k], d.matrix());
+      if (partly_[k]) d.matrix() = without_fixed(model_, column_[k], column_[k], d.matrix());
       add_diagonal(shift, d);
     }
   }
 
   const Model& model_;
-  std::vector<int> order_, place_;  // elimination order of free columns, and its inverse
-  std::vector<int> column_;         // column of the model, in elimination order
-  std::vector<char> partly_;        // whether some of the column's components are constrained
+  std::vector<int> order_, position_;  // elimination order of free columns, and its inverse
+  std::vector<int> column_;            // column of the model, in elimination order
+  std::vector<char> partly_;           // whether some of the column's components are constrained
   // targets of the blocks of pairs, as they are or transposed; blocks of partly constrained columns
   // are copied there again without the constrained components
   std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;

@@ -23,9 +23,9 @@ double flat_chord(const RodMesh& mesh, std::size_t r, std::size_t from, std::siz
 
 /// Sum of the distances of the constrained points from their centroid, mm.
 double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
-  const std::vector<int> held = held_nodes(mesh);
-  const Eigen::Matrix3Xd places = x(Eigen::all, held);
-  return (places.colwise() - Eigen::Vector3d(places.rowwise().mean())).colwise().norm().sum();
+  const std::vector<int> fixed = fixed_nodes(mesh);
+  const Eigen::Matrix3Xd points = x(Eigen::all, fixed);
+  return (points.colwise() - Eigen::Vector3d(points.rowwise().mean())).colwise().norm().sum();
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t) {
   double chords = 0, lengths = 0;
   const Eigen::Matrix3Xd x = motion.at(t);
-  const std::set<int> held(mesh.fixed_joints.begin(), mesh.fixed_joints.end());
+  const std::set<int> fixed(mesh.fixed_joints.begin(), mesh.fixed_joints.end());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     // from one constrained node to the next
     const std::vector<int>& node = mesh.rods[r];
@@ -41,7 +41,7 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
     std::size_t before = none;
     for (std::size_t k = 0; k < node.size(); ++k) {
       const bool end = k == 0 || k + 1 == node.size();
-      if (!(end && mesh.joint_of(node[k]) < 0) && !held.contains(node[k])) continue;
+      if (!(end && mesh.joint_of(node[k]) < 0) && !fixed.contains(node[k])) continue;
       if (before != none) {
         chords += (x.col(node[k]) - x.col(node[before])).norm();
         lengths += flat_chord(mesh, r, before, k);

@@ -70,7 +70,7 @@ class CholmodSolver final : public LinearSolver {
         cholmod_allocate_dense(matrix_->nrow, 1, matrix_->nrow, CHOLMOD_REAL, &common_);
     if (!rhs) throw std::bad_alloc();
     auto* values = static_cast<double*>(rhs->x);
-    clear_held_rows(b);
+    clear_fixed_rows(b);
     for (int k = 0; k < model_.free(); ++k)
       Eigen::Map<Eigen::Vector3d>(values + 3 * k) = b.col(model_.free_columns[std::size_t(k)]);
     cholmod_dense* x = cholmod_solve(CHOLMOD_A, current_, rhs, &common_);
@@ -88,7 +88,7 @@ class CholmodSolver final : public LinearSolver {
   long long blocks() const override { return (long long)(common_.lnz / 9); }
 
  private:
-  /// Lower triangle by columns; `places_` has the indices of the nine entries of each block.
+  /// Lower triangle by columns; `pairs_` has the position of the block of each pair.
   void build_pattern(const std::vector<std::vector<int>>& graph) {
     const int n = int(graph.size());
     long long entries = 0;
@@ -114,31 +114,32 @@ class CholmodSolver final : public LinearSolver {
       }
     }
     start[3 * n] = at;
-    const auto place = [&](int first, int second) {
+    const auto position_of = [&](int first, int second) {
       const int a = model_.free_index[first], b = model_.free_index[second];
-      if (a < 0 || b < 0) return Place{-1, -1, false};
+      if (a < 0 || b < 0) return BlockPosition{-1, -1, false};
       const int column = std::min(a, b), other = std::max(a, b);
       const auto& list = later[column];
-      return Place{column, int(std::lower_bound(list.begin(), list.end(), other) - list.begin()),
-                   a < b};
+      return BlockPosition{
+          column, int(std::lower_bound(list.begin(), list.end(), other) - list.begin()), a < b};
     };
-    for (const auto& [row, column] : model_.pattern.pairs()) pairs_.push_back(place(row, column));
+    for (const auto& [row, column] : model_.pattern.pairs())
+      pairs_.push_back(position_of(row, column));
   }
 
   /// the `rank`-th block below the diagonal block of a block column
-  struct Place {
+  struct BlockPosition {
     int column, rank;
     bool transposed;
   };
 
-  void put(const Eigen::Matrix3d& m, const Place& place) {
-    if (place.column < 0) return;
+  void put(const Eigen::Matrix3d& m, const BlockPosition& at) {
+    if (at.column < 0) return;
     const auto* start = static_cast<const int*>(matrix_->p);
     auto* value = static_cast<double*>(matrix_->x);
     for (int c = 0; c < 3; ++c)
       for (int r = 0; r < 3; ++r)
-        value[start[3 * place.column + c] + (3 - c) + 3 * place.rank + r] =
-            place.transposed ? m(c, r) : m(r, c);
+        value[start[3 * at.column + c] + (3 - c) + 3 * at.rank + r] =
+            at.transposed ? m(c, r) : m(r, c);
   }
 
   void fill(const BlockHessian& hessian, double shift) {
@@ -147,20 +148,20 @@ class CholmodSolver final : public LinearSolver {
     for (int k = 0; k < model_.free(); ++k) {
       const int column = model_.free_columns[std::size_t(k)];
       const Eigen::Matrix3d d =
-          without_held(model_, column, column, hessian.diagonal[std::size_t(column)].matrix());
+          without_fixed(model_, column, column, hessian.diagonal[std::size_t(column)].matrix());
       for (int c = 0; c < 3; ++c)
         for (int r = c; r < 3; ++r)
           value[start[3 * k + c] + r - c] = d(r, c) + (r == c ? shift : 0);
     }
     const auto& pattern = model_.pattern.pairs();
     for (std::size_t k = 0; k < pairs_.size(); ++k)
-      put(without_held(model_, pattern[k][0], pattern[k][1], hessian.pair[k].matrix()), pairs_[k]);
+      put(without_fixed(model_, pattern[k][0], pattern[k][1], hessian.pair[k].matrix()), pairs_[k]);
   }
 
-  void clear_held_rows(Eigen::Matrix3Xd& b) const {
+  void clear_fixed_rows(Eigen::Matrix3Xd& b) const {
     for (int column : model_.free_columns)
       for (int c = 0; c < 3; ++c)
-        if (model_.held[std::size_t(column)] >> c & 1) b(c, column) = 0;
+        if (model_.fixed[std::size_t(column)] >> c & 1) b(c, column) = 0;
   }
 
   static Inertia read_simplicial(const cholmod_factor* f) {
@@ -193,7 +194,7 @@ class CholmodSolver final : public LinearSolver {
   cholmod_factor* factor_ = nullptr;
   cholmod_factor* indefinite_ = nullptr;  // made when first needed
   cholmod_factor* current_ = nullptr;     // the one of both that factor() computed last
-  std::vector<Place> pairs_;
+  std::vector<BlockPosition> pairs_;
 };
 
 }  // namespace

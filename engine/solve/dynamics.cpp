@@ -46,8 +46,8 @@ double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving) {
 
 namespace {
 
-constexpr double gamma = 2 - M_SQRT2;  // fraction of the trapezoidal part
-constexpr double held_mass = 1e6;      // mass of prescribed components, over the shell's mass
+constexpr double gamma = 2 - M_SQRT2;     // fraction of the trapezoidal part
+constexpr double constrained_mass = 1e6;  // mass of prescribed components, over the shell's mass
 
 }  // namespace
 
@@ -58,18 +58,19 @@ MovingState MovingState::at_rest(State state) {
 
 DampedMotion::DampedMotion(const Model& model, Eigen::Matrix3Xd mass,
                            const DynamicsOptions& options, const ExternalLoads& outside,
-                           std::vector<Constraint> holds)
+                           std::vector<Constraint> constraints)
     : model_(model),
       mass_(std::move(mass)),
       whole_mass_(mass_.row(0).leftCols(model.nodes).sum()),
       options_(options),
       outside_(outside),
-      holds_(std::move(holds)),
+      constraints_(std::move(constraints)),
       solver_(make_linear_solver(model)) {}
 
 void DampedMotion::clear_prescribed(Eigen::Matrix3Xd& v) const {
-  clear_held(model_, v);
-  for (const Constraint& hold : holds_) v.col(hold.node) -= hold.part(v.col(hold.node));
+  clear_fixed(model_, v);
+  for (const Constraint& constraint : constraints_)
+    v.col(constraint.node) -= constraint.part(v.col(constraint.node));
 }
 
 /// Forces of the shell and its loads on free components; zero on prescribed ones.
@@ -95,9 +96,10 @@ bool DampedMotion::implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd&
     for (int column : model_.free_columns)
       assembly_.hessian.diagonal[std::size_t(column)].matrix().diagonal() +=
           stiffness * mass_.col(column);
-    for (const Constraint& hold : holds_)
-      assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
-          stiffness * held_mass * whole_mass_ * hold.directions * hold.directions.transpose();
+    for (const Constraint& constraint : constraints_)
+      assembly_.hessian.diagonal[std::size_t(constraint.node)].matrix() +=
+          stiffness * constrained_mass * whole_mass_ * constraint.directions *
+          constraint.directions.transpose();
     clear_prescribed(dx);
     if (!solver_->factor(assembly_.hessian, 0).usable) return false;
     solver_->solve(dx);
@@ -116,7 +118,7 @@ bool DampedMotion::step(MovingState& moving, const Watch& watch) {
   const Eigen::Matrix3Xd &x0 = moving.state.x, &v0 = moving.velocity;
   const auto predicted = [&](const State& from, const Eigen::Matrix3Xd& by) {
     Eigen::Matrix3Xd free = by;
-    clear_held(model_, free);
+    clear_fixed(model_, free);
     State state = from;
     move_to(model_, from.x + free, state);
     return state;
@@ -135,7 +137,7 @@ bool DampedMotion::step(MovingState& moving, const Watch& watch) {
   State second = predicted(first, (1 - gamma) * h * v1);
   if (!implicit(X, mass_.cwiseProduct(V / w), stiffness, second, watch)) return false;
   moving.velocity = (second.x - X) / w;
-  clear_held(model_, moving.velocity);
+  clear_fixed(model_, moving.velocity);
   moving.state = std::move(second);
   moving.time += h;
   return true;

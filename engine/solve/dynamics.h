@@ -57,9 +57,9 @@ struct RestOptions {
 /// them.
 class DampedMotion {
  public:
-  /// `holds` as in Linearisation; a mass a million times the shell's fixes their components.
+  /// `constraints` as in Linearisation; a mass a million times the shell's fixes their components.
   DampedMotion(const Model& model, Eigen::Matrix3Xd mass, const DynamicsOptions& options,
-               const ExternalLoads& outside = {}, std::vector<Constraint> holds = {});
+               const ExternalLoads& outside = {}, std::vector<Constraint> constraints = {});
 
   /// Takes one step. Returns false if that fails or is cancelled; then the motion is unchanged.
   bool step(MovingState& moving, const Watch& watch = unwatched);
@@ -84,7 +84,7 @@ class DampedMotion {
   double whole_mass_ = 0;
   DynamicsOptions options_;
   ExternalLoads outside_;
-  std::vector<Constraint> holds_;
+  std::vector<Constraint> constraints_;
   std::unique_ptr<LinearSolver> solver_;
   Assembly assembly_;
 };

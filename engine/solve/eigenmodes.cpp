@@ -119,7 +119,7 @@ Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matri
                                  int count, int negative, const Watch& watch) {
   const Model& model = system.model();
   Eigen::Matrix3Xd root = mass.cwiseSqrt();
-  clear_held(model, root);
+  clear_fixed(model, root);
   const Index massive = (root.array() > 0).count();
   const double unit = root.squaredNorm() / double(massive);
   root /= std::sqrt(unit);
@@ -140,9 +140,9 @@ Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matri
     force += system.neutral_shift() * shape;
     Eigen::Matrix3Xd inertia = lambda * mass.cwiseProduct(shape);
     for (Eigen::Matrix3Xd* of : {&force, &inertia}) {
-      clear_held(model, *of);
-      for (const Constraint& hold : system.holds())
-        of->col(hold.node) -= hold.part(of->col(hold.node));
+      clear_fixed(model, *of);
+      for (const Constraint& constraint : system.constraints())
+        of->col(constraint.node) -= constraint.part(of->col(constraint.node));
     }
     modes.residuals.push_back((force - inertia).norm() / inertia.norm());
     modes.shapes.push_back(std::move(shape));

@@ -32,7 +32,7 @@ class GradientFlow {
  public:
   GradientFlow(Linearisation& system, State& state, double step_mm, const Watch& watch)
       : system_(system), state_(state), step_mm_(step_mm), watch_(watch) {
-    system.stop_at_negative(system.holds().empty());
+    system.stop_at_negative(system.constraints().empty());
   }
   ~GradientFlow() { system_.stop_at_negative(false); }
   GradientFlow(const GradientFlow&) = delete;
@@ -106,7 +106,7 @@ class Descent {
  public:
   Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
       : system_(system), state_(state), options_(options), watch_(watch) {
-    system.stop_at_negative(system.holds().empty());
+    system.stop_at_negative(system.constraints().empty());
     for (const ModelEdge& edge : system.model().edges)
       near_mm_ += 0.1 * edge.rest_length / double(system.model().edges.size());
   }

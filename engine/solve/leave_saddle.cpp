@@ -61,7 +61,7 @@ bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen:
   // consists of (rods, loads, applied load)
   constexpr double same_mm = 1e-5, same_slope = 1e-6;
   const int nodes = model.nodes;
-  if (model.has_spins() || !system.holds().empty()) return false;
+  if (model.has_spins() || !system.constraints().empty()) return false;
   return std::ranges::any_of(departure.symmetries, [&](const MeshSymmetry& symmetry) {
     if (distance_under(symmetry, against.x, along.x.leftCols(nodes)) > same_mm) return false;
     State image = against;

@@ -99,13 +99,13 @@ std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
   return std::make_unique<BeyondSolver>(model);
 }
 
-Eigen::Matrix3d without_held(const Model& model, int row, int column,
-                             const Eigen::Matrix3d& block) {
+Eigen::Matrix3d without_fixed(const Model& model, int row, int column,
+                              const Eigen::Matrix3d& block) {
   Eigen::Matrix3d m = block;
   for (int k = 0; k < 3; ++k) {
-    if (model.held[std::size_t(row)] >> k & 1) m.row(k).setZero();
-    if (model.held[std::size_t(column)] >> k & 1) m.col(k).setZero();
-    if (row == column && model.held[std::size_t(row)] >> k & 1) m(k, k) = 1;
+    if (model.fixed[std::size_t(row)] >> k & 1) m.row(k).setZero();
+    if (model.fixed[std::size_t(column)] >> k & 1) m.col(k).setZero();
+    if (row == column && model.fixed[std::size_t(row)] >> k & 1) m(k, k) = 1;
   }
   return m;
 }

@@ -102,7 +102,8 @@ std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOpti
 
 /// `block` at row `row` and column `column` of the model with the constrained rows and columns set
 /// to zero, and one on the diagonal.
-Eigen::Matrix3d without_held(const Model& model, int row, int column, const Eigen::Matrix3d& block);
+Eigen::Matrix3d without_fixed(const Model& model, int row, int column,
+                              const Eigen::Matrix3d& block);
 
 // Fill-reducing elimination order of the free columns.
 

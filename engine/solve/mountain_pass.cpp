@@ -35,7 +35,7 @@ class ElasticString {
       if (!(gap > 1.5 * spacing_)) break;
       Image next{tip, 0, 0};
       Eigen::Matrix3Xd step = spacing_ / gap * ahead + noise;
-      clear_held(system_.model(), step);
+      clear_fixed(system_.model(), step);
       move_to(system_.model(), tip.x + step, next.state);
       for (int n = 0; n < first_steps; ++n)
         if (!go_down(next, ahead / gap)) return false;
@@ -92,9 +92,9 @@ class ElasticString {
     std::vector<Image> even;
     std::size_t right = 1;
     for (int n = 0; n < options_.images; ++n) {
-      const double place = spacing_ * n;
-      while (right + 1 < at.size() && at[right] < place) ++right;
-      const double fraction = (place - at[right - 1]) / (at[right] - at[right - 1]);
+      const double position = spacing_ * n;
+      while (right + 1 < at.size() && at[right] < position) ++right;
+      const double fraction = (position - at[right - 1]) / (at[right] - at[right - 1]);
       even.push_back(between(images_[right - 1], images_[right], std::clamp(fraction, 0.0, 1.0)));
     }
     images_ = std::move(even);

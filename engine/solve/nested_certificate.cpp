@@ -125,7 +125,7 @@ void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) 
   constexpr double misfit = 1e-5;  // fraction of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
-  const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
+  const bool to_the_end = state_.t >= 1 || !system.constraints().empty(),
              trusted = last.last_move_mm > options_.tolerance_mm;
   if (!to_the_end && !trusted && system.forces_agree(found, misfit)) return;
   const int most = to_the_end ? 4 : 1;
@@ -280,21 +280,22 @@ CertifiedVectors certify_reactions(const std::vector<Eigen::Matrix3Xd>& levels, 
 
 /// Forces at the prescribed joints of a level, and their stiffness by its last factorisation, which
 /// is one correction before the state.
-NestedShell::HeldForces NestedShell::held_forces(Level& level, const State& state) const {
+NestedShell::ConstraintForces NestedShell::constraint_forces(Level& level,
+                                                             const State& state) const {
   Linearisation& system = *level.system;
   system.gradient_at(state);
-  const std::vector<Constraint>& holds = system.holds();
-  HeldForces found{Eigen::Matrix3Xd(3, Eigen::Index(holds.size())), {}};
-  for (std::size_t k = 0; k < holds.size(); ++k)
-    found.force.col(Eigen::Index(k)) = system.reaction(holds[k]);
-  found.stiffness = system.held_stiffness();
+  const std::vector<Constraint>& constraints = system.constraints();
+  ConstraintForces found{Eigen::Matrix3Xd(3, Eigen::Index(constraints.size())), {}};
+  for (std::size_t k = 0; k < constraints.size(); ++k)
+    found.force.col(Eigen::Index(k)) = system.reaction(constraints[k]);
+  found.stiffness = system.constraint_stiffness();
   return found;
 }
 
 /// Sets reactions and their stiffness, with errors, from those of `levels`, coarse to fine.
-void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
+void NestedShell::take_reactions(const std::vector<ConstraintForces>& levels) {
   std::vector<Eigen::Matrix3Xd> forces, stiffness;
-  for (const HeldForces& level : levels) {
+  for (const ConstraintForces& level : levels) {
     forces.push_back(level.force);
     const auto entries = level.stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
@@ -307,8 +308,8 @@ void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   state_.reactions.clear();
   for (const auto& reaction : force.value.colwise()) state_.reactions.emplace_back(reaction);
   state_.reaction_error_N = force.error;
-  state_.held_stiffness = levels.back().stiffness;
-  state_.held_stiffness.reshaped() = tangent.value.row(0).transpose();
+  state_.constraint_stiffness = levels.back().stiffness;
+  state_.constraint_stiffness.reshaped() = tangent.value.row(0).transpose();
   state_.stiffness_error_N_per_mm =
       tangent.error + stale_stiffness * max_column_norm(tangent.value);
 }

@@ -129,9 +129,9 @@ bool NestedShell::measure_on(std::size_t k, const State& base, const NestedState
 
 /// Solves the companions, finer ones first, until one has no equilibrium near the finer state.
 void NestedShell::measure(const Watch& watch, const NestedState& before) {
-  const bool constrained = !system().holds().empty();
-  std::vector<HeldForces> forces;
-  if (constrained) forces.push_back(held_forces(*levels_.back(), state_.levels.back()));
+  const bool constrained = !system().constraints().empty();
+  std::vector<ConstraintForces> forces;
+  if (constrained) forces.push_back(constraint_forces(*levels_.back(), state_.levels.back()));
   state_.measured = last();
   for (auto k = std::size_t(last()); k-- > 0;) {
     Level& level = *levels_[k];
@@ -141,7 +141,7 @@ void NestedShell::measure(const Watch& watch, const NestedState& before) {
     if (state_.measured == int(k) + 1 && measure_on(k, base, before, watch)) {
       state_.measured = int(k);
       found = difference(level, state_.t, base, state_.levels[k]);
-      if (constrained) forces.insert(forces.begin(), held_forces(level, state_.levels[k]));
+      if (constrained) forces.insert(forces.begin(), constraint_forces(level, state_.levels[k]));
     } else {
       state_.levels[k] = std::move(base);
     }

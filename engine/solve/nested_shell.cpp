@@ -72,7 +72,7 @@ Assembly NestedShell::forces(int level) const {
   return at;
 }
 
-State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>& holds) {
+State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>& constraints) {
   const Level& theirs = *other.levels_.back();
   State fine;
   for (auto& level : levels_) {
@@ -83,9 +83,9 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>&
                      PathLaw::even,
                      {theirs.system->outside.load, 0}};
     // a prescribed joint remains at its extrapolated position: that of one mesh has its mesh error
-    for (const Constraint& hold : holds)
-      level->motion.begin.col(hold.node) = other.state_.x.col(hold.node);
-    level->system->hold(holds);
+    for (const Constraint& constraint : constraints)
+      level->motion.begin.col(constraint.node) = other.state_.x.col(constraint.node);
+    level->system->constrain(constraints);
     fine = std::move(state);
   }
   state_.t = 0;
@@ -111,10 +111,10 @@ void NestedShell::back_to(const NestedState& state) {
 }
 
 void NestedShell::restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
-                          const std::vector<Constraint>& holds) {
+                          const std::vector<Constraint>& constraints) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     levels_[k]->motion = motions[k];
-    levels_[k]->system->hold(holds);
+    levels_[k]->system->constrain(constraints);
   }
   reset_path();
   back_to(state);
@@ -151,14 +151,14 @@ NestedPathPoint NestedShell::point() const {
           state_.inertia};
 }
 
-NestedReport NestedShell::place(double t, const State& fine, const Watch& watch) {
+NestedReport NestedShell::start_path(double t, const State& fine, const Watch& watch) {
   forget();
   path_->allow_unstable(options_.allow_unstable);
   return {path_->start(t, fine, watch).end, t};
 }
 
 NestedReport NestedShell::start(double t, const State& fine, const Watch& watch) {
-  const NestedReport report = place(t, fine, watch);
+  const NestedReport report = start_path(t, fine, watch);
   return report.end == Outcome::reached ? certify(*path_, watch) : report;
 }
 
@@ -202,7 +202,7 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   for (std::size_t k = 0; across && k < across->companions.size(); ++k)
     levels_[k]->differences.push_back(across->companions[k]);
   // with constraints the stiffness at this state is needed, hence a factorisation
-  const bool known = t == beside.t && system().holds().empty();
+  const bool known = t == beside.t && system().constraints().empty();
   return certify(path, watch, known ? beside.inertia : Inertia{});
 }
 
@@ -227,22 +227,23 @@ void NestedShell::drive(const PrescribedMove& drive) {
         if (level.model.pinned(node)) level.motion.change.col(node) = there.col(node) - x.col(node);
     }
     for (std::size_t h = 0; h < drive.displacements.size(); ++h)
-      level.motion.change.col(drive.holds[h].node) = drive.displacements[h];
-    level.system->hold(drive.holds);
+      level.motion.change.col(drive.constraints[h].node) = drive.displacements[h];
+    level.system->constrain(drive.constraints);
   }
   forget();
   reset_path();
 }
 
-void NestedShell::actuate(double t, const std::vector<Constraint>& holds, double load_scale) {
+void NestedShell::actuate(double t, const std::vector<Constraint>& constraints, double load_scale) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
     // a shell without a state yet is at the start of its motion
     const Eigen::Matrix3Xd here = state_.levels.empty() ? level.motion.begin : state_.levels[k].x;
     level.motion = pinned_motion(level.mesh, boundary_);
     level.motion.load.change = load_scale;
-    for (const Constraint& hold : holds) level.motion.begin.col(hold.node) = here.col(hold.node);
-    level.system->hold(holds);
+    for (const Constraint& constraint : constraints)
+      level.motion.begin.col(constraint.node) = here.col(constraint.node);
+    level.system->constrain(constraints);
   }
   state_.t = t;
   forget();

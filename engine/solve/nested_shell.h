@@ -35,7 +35,7 @@ struct NestedState {
   double reaction_error_N = std::numeric_limits<double>::quiet_NaN();
   /// Derivative of the reactions' constrained components by the constrained displacements, N/mm, in
   /// the order of the constraints and their directions, and its largest error.
-  Eigen::MatrixXd held_stiffness;
+  Eigen::MatrixXd constraint_stiffness;
   double stiffness_error_N_per_mm = std::numeric_limits<double>::quiet_NaN();
   State velocity;                       ///< derivative of the finest level's state by t
   double step = PathPoint::first_step;  ///< step in t with which the path continues
@@ -97,7 +97,7 @@ struct NestedReport {
 
 /// A motion prescribed from the current state, linear in t from 0 to 1 on every level.
 struct PrescribedMove {
-  std::vector<Constraint> holds;  ///< all constrained joints during the motion
+  std::vector<Constraint> constraints;  ///< all constrained joints during the motion
   /// displacements of the constrained components, mm, one per constraint
   std::vector<Eigen::Vector3d> displacements = {};
   std::optional<BoundaryMotion> boundary =
@@ -122,7 +122,7 @@ class NestedShell {
   NestedReport start(double t, const State& fine, const Watch& watch);
   /// Starts the path at t from a state in or near equilibrium, without certificate and error
   /// estimate.
-  NestedReport place(double t, const State& fine, const Watch& watch = unwatched);
+  NestedReport start_path(double t, const State& fine, const Watch& watch = unwatched);
   /// Prolongates a state of the coarsest mesh at t to the finest, mesh by mesh, by Newton's method,
   /// or by minimising the energy if that fails. Errors: no_equilibrium, cancelled.
   Result<State> refined(double t, State coarse, const Watch& watch);
@@ -137,12 +137,12 @@ class NestedShell {
   /// Starts a prescribed motion from the current state, which is at t = 0. The caller then calls
   /// start() at t = 0 with the finest level's state.
   void drive(const PrescribedMove& drive);
-  /// Returns to the motion of the boundary given to make(), with `holds` fixed at their positions.
-  /// The current state is at t there.
-  void actuate(double t, const std::vector<Constraint>& holds, double load_scale);
+  /// Returns to the motion of the boundary given to make(), with `constraints` fixed at their
+  /// positions. The current state is at t there.
+  void actuate(double t, const std::vector<Constraint>& constraints, double load_scale);
   /// Transfers the state of another shell of the same footprint, with all that is prescribed fixed.
   /// Returns the state of the finest mesh; the caller then calls start() at t = 0 with it.
-  State stay(const NestedShell& other, const std::vector<Constraint>& holds);
+  State stay(const NestedShell& other, const std::vector<Constraint>& constraints);
   /// Sets the applied load and its increment in a drive, N on each node.
   void set_fields(const std::vector<NodeAction>& steady, const std::vector<NodeAction>& field);
 
@@ -151,7 +151,7 @@ class NestedShell {
   void back_to(const NestedState& state);
   /// Restores an earlier state with its motions and constraints.
   void restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
-               const std::vector<Constraint>& holds);
+               const std::vector<Constraint>& constraints);
   /// Point that the path follower reached; it is past the current state if advance() failed.
   const PathPoint& followed() const { return path_->point(); }
   /// The current state as a point of the path.
@@ -206,7 +206,7 @@ class NestedShell {
     std::vector<MeshDifference> differences;  // at the last three states
   };
   /// Reactions and tangent stiffness at a level's constraints.
-  struct HeldForces {
+  struct ConstraintForces {
     Eigen::Matrix3Xd force;
     Eigen::MatrixXd stiffness;
   };
@@ -229,8 +229,8 @@ class NestedShell {
   Inertia inertia_of(Level& level, const State& found, const NewtonReport& report) const;
   void polish(Level& finest, State& found, const NewtonReport& last);
   void refine_velocity(Level& finest, const State& found);
-  HeldForces held_forces(Level& level, const State& state) const;
-  void take_reactions(const std::vector<HeldForces>& levels);
+  ConstraintForces constraint_forces(Level& level, const State& state) const;
+  void take_reactions(const std::vector<ConstraintForces>& levels);
   void estimate(const Energies& energies);
 
   LevelPlan plan_;

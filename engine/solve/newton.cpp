@@ -37,9 +37,9 @@ Inertia Linearisation::at(const State& state, bool mixed, double shift, double E
   EA_scale_ = EA_scale;
   assemble_hessian(model_, state, outside, {mixed, EA_scale}, assembly_, solver_->team);
   tangents_ = assembly_.tangents;
-  for (const Constraint& hold : holds_)
-    assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
-        border_stiffness * hold.directions * hold.directions.transpose();
+  for (const Constraint& constraint : constraints_)
+    assembly_.hessian.diagonal[std::size_t(constraint.node)].matrix() +=
+        border_stiffness * constraint.directions * constraint.directions.transpose();
   return shifted(shift);
 }
 
@@ -53,7 +53,7 @@ Inertia Linearisation::shifted(double shift) {
   ++effort_.factorizations;
   shift_ = shift + neutral_shift_;
   Inertia inertia = solver_->factor(assembly_.hessian, shift_);
-  if (!holds_.empty() && inertia.usable) border(inertia);
+  if (!constraints_.empty() && inertia.usable) border(inertia);
   return inertia;
 }
 
@@ -82,12 +82,13 @@ void Linearisation::bear_neutral_directions() {
   if (std::isfinite(softest)) neutral_shift_ = fraction * softest;
 }
 
-Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {
+Eigen::VectorXd Linearisation::constrained_part(const Eigen::Matrix3Xd& x) const {
   Eigen::VectorXd part(compliance_.rows());
   Eigen::Index at = 0;
-  for (const Constraint& hold : holds_) {
-    part.segment(at, hold.directions.cols()) = hold.directions.transpose() * x.col(hold.node);
-    at += hold.directions.cols();
+  for (const Constraint& constraint : constraints_) {
+    part.segment(at, constraint.directions.cols()) =
+        constraint.directions.transpose() * x.col(constraint.node);
+    at += constraint.directions.cols();
   }
   return part;
 }
@@ -96,15 +97,16 @@ Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {
 /// border itself adds m positive and m negative eigenvalues [Haynsworth 1968].
 void Linearisation::border(Inertia& inertia) {
   border_.clear();
-  for (const Constraint& hold : holds_)
-    for (Eigen::Index k = 0; k < hold.directions.cols(); ++k) {
+  for (const Constraint& constraint : constraints_)
+    for (Eigen::Index k = 0; k < constraint.directions.cols(); ++k) {
       border_.push_back(Eigen::Matrix3Xd::Zero(3, model_.columns()));
-      border_.back().col(hold.node) = hold.directions.col(k);
+      border_.back().col(constraint.node) = constraint.directions.col(k);
       solver_->solve(border_.back());
     }
   const Eigen::Index m = Eigen::Index(border_.size());
   compliance_.resize(m, m);
-  for (Eigen::Index k = 0; k < m; ++k) compliance_.col(k) = held_part(border_[std::size_t(k)]);
+  for (Eigen::Index k = 0; k < m; ++k)
+    compliance_.col(k) = constrained_part(border_[std::size_t(k)]);
   compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
   const Eigen::VectorXd own = eigenvalues(compliance_);
   inertia.usable = own.allFinite() && (own.array() != 0).all();
@@ -118,25 +120,26 @@ void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
   }
   model_.fold(right_hand_side);
   solver_->solve(right_hand_side);
-  if (!holds_.empty()) {
-    const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
+  if (!constraints_.empty()) {
+    const Eigen::VectorXd force = solution(compliance_, constrained_part(right_hand_side));
     for (std::size_t k = 0; k < border_.size(); ++k)
       right_hand_side -= force[Eigen::Index(k)] * border_[k];
   }
   model_.follow(right_hand_side);
 }
 
-Eigen::MatrixXd Linearisation::held_stiffness() const {
+Eigen::MatrixXd Linearisation::constraint_stiffness() const {
   Eigen::MatrixXd stiffness = inverse(compliance_);
   stiffness.diagonal().array() -= border_stiffness;
   return stiffness;
 }
 
 double Linearisation::residual() const {
-  if (holds_.empty()) return residual_of(model_, assembly_.gradient);
-  Eigen::Matrix3Xd unheld = assembly_.gradient;
-  for (const Constraint& hold : holds_) unheld.col(hold.node) -= hold.part(reaction(hold));
-  return residual_of(model_, unheld);
+  if (constraints_.empty()) return residual_of(model_, assembly_.gradient);
+  Eigen::Matrix3Xd unconstrained = assembly_.gradient;
+  for (const Constraint& constraint : constraints_)
+    unconstrained.col(constraint.node) -= constraint.part(reaction(constraint));
+  return residual_of(model_, unconstrained);
 }
 
 void Linearisation::residual_at(const State& state) {
@@ -158,7 +161,8 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed,
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.columns());
   for (int column = 0; column < model_.nodes; ++column)
     if (model_.pinned(column)) moved.col(column) = prescribed.col(column);
-  for (const Constraint& hold : holds_) moved.col(hold.node) = hold.part(prescribed.col(hold.node));
+  for (const Constraint& constraint : constraints_)
+    moved.col(constraint.node) = constraint.part(prescribed.col(constraint.node));
   multiply(model_, assembly_.hessian, moved, velocity);
   velocity *= -1;
   const auto grow = [&](const std::vector<NodeAction>& actions, double factor) {
@@ -182,12 +186,12 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx, double o
         EA_scale_ * edge.EA / edge.rest_length *
         tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
   }
-  each_spring(model_, [&](const auto& pair, Eigen::Index place) {
+  each_spring(model_, [&](const auto& pair, Eigen::Index index) {
     double angle = -opening * pair.law.opening;
-    each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+    each_arm(model_, pair, index, [&](const ModelEdge& edge, Eigen::Index column) {
       angle += tangents_.col(column).dot(dx.col(edge.to) - dx.col(edge.from));
     });
-    change[place] = angle;
+    change[index] = angle;
   });
   const Eigen::Index springs = model_.forces() - Eigen::Index(model_.edges.size());
   change.tail(springs) = spring_torques(model_, change.tail(springs));
@@ -224,9 +228,9 @@ void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) 
   }
   const Eigen::VectorXd torques =
       spring_torques(model_, spring_excess(model_, state, outside.opening));
-  each_spring(model_, [&](const auto& pair, Eigen::Index place) {
-    const double excess = torques[place - Eigen::Index(model_.edges.size())] - force[place];
-    each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+  each_spring(model_, [&](const auto& pair, Eigen::Index index) {
+    const double excess = torques[index - Eigen::Index(model_.edges.size())] - force[index];
+    each_arm(model_, pair, index, [&](const ModelEdge& edge, Eigen::Index column) {
       pull.col(edge.from) += excess * tangents_.col(column);
       pull.col(edge.to) -= excess * tangents_.col(column);
     });

@@ -70,15 +70,15 @@ class Linearisation {
 
   /// Sets the constraints from the next at() on. Corrections do not change constrained components;
   /// the inertia is that of the constrained system.
-  void hold(std::vector<Constraint> holds) { holds_ = std::move(holds); }
-  const std::vector<Constraint>& holds() const { return holds_; }
+  void constrain(std::vector<Constraint> constraints) { constraints_ = std::move(constraints); }
+  const std::vector<Constraint>& constraints() const { return constraints_; }
   /// Reaction at a constrained node, all components, N; of the last assembly.
-  Eigen::Vector3d reaction(const Constraint& hold) const {
-    return assembly_.gradient.col(hold.node);
+  Eigen::Vector3d reaction(const Constraint& constraint) const {
+    return assembly_.gradient.col(constraint.node);
   }
   /// Derivative of the forces on the constrained components by their displacements, m x m in the
   /// order of the constraints and their directions, N/mm; of the last factorisation.
-  Eigen::MatrixXd held_stiffness() const;
+  Eigen::MatrixXd constraint_stiffness() const;
 
   /// Sets whether factorisations stop at the first negative pivot, which is enough for callers that
   /// need positive definite matrices.
@@ -142,12 +142,12 @@ class Linearisation {
 
  private:
   void border(Inertia& inertia);
-  Eigen::VectorXd held_part(const Eigen::Matrix3Xd& x) const;
+  Eigen::VectorXd constrained_part(const Eigen::Matrix3Xd& x) const;
 
   const Model& model_;
   std::unique_ptr<LinearSolver> solver_;
   Assembly assembly_;
-  std::vector<Constraint> holds_;
+  std::vector<Constraint> constraints_;
   std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, one matrix per column of B
   Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point

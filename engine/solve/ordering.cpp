@@ -61,23 +61,23 @@ class Dissection {
   /// columns in the order do not depend on each other.
   std::vector<int> side_by_side(const std::vector<int>& nodes) const {
     constexpr int together = 4;
-    struct Place {
+    struct Entry {
       int group, along, node;
     };
-    std::vector<Place> places;
+    std::vector<Entry> entries;
     int segments = 0, along = 0, before = -1;
     for (int node : nodes) {
       const int segment = model_.segment[std::size_t(model_.free_columns[std::size_t(node)])];
       segments += segment != before;
       along = segment != before ? 0 : along + 1;
       before = segment;
-      places.push_back({segments / together, along, node});
+      entries.push_back({segments / together, along, node});
     }
-    std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
       return a.group != b.group ? a.group < b.group : a.along < b.along;
     });
     std::vector<int> order;
-    for (const Place& place : places) order.push_back(place.node);
+    for (const Entry& entry : entries) order.push_back(entry.node);
     return order;
   }
 

@@ -47,8 +47,8 @@ void PinnedMotion::impose(Linearisation& system, double t, State& state) const {
   Eigen::Matrix3Xd x = state.x;
   for (int node = 0; node < model.nodes; ++node)
     if (model.pinned(node)) x.col(node) = there.col(node);
-  for (const Constraint& hold : system.holds())
-    x.col(hold.node) += hold.part(there.col(hold.node) - x.col(hold.node));
+  for (const Constraint& constraint : system.constraints())
+    x.col(constraint.node) += constraint.part(there.col(constraint.node) - x.col(constraint.node));
   move_to(model, x, state);
 }
 
@@ -73,7 +73,7 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
     pinned.change.col(mesh.fixed_joints[k]) = motion.end_joints.col(Eigen::Index(k)) - from;
   }
   // a ghost is in the prescribed direction from its edge point
-  const auto place = [&](int ghost, Eigen::Index end, double side) {
+  const auto set_ghost = [&](int ghost, Eigen::Index end, double side) {
     const double length = side * mesh.ghost_length;
     pinned.begin.col(ghost) = motion.begin.col(end) + length * motion.begin_tangent.col(end);
     pinned.change.col(ghost) = motion.end.col(end) + length * motion.end_tangent.col(end);
@@ -81,8 +81,8 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
   };
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
-    if (mesh.is_ghost(node.front())) place(node.front(), 2 * Eigen::Index(r), -1);
-    if (mesh.is_ghost(node.back())) place(node.back(), 2 * Eigen::Index(r) + 1, 1);
+    if (mesh.is_ghost(node.front())) set_ghost(node.front(), 2 * Eigen::Index(r), -1);
+    if (mesh.is_ghost(node.back())) set_ghost(node.back(), 2 * Eigen::Index(r) + 1, 1);
   }
   // a spring's support is placed where its rod would be pinned
   for (const MeshSpring& spring : mesh.springs) {

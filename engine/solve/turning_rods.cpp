@@ -18,12 +18,12 @@ bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<
   constexpr double on_line = 1e-9;  // deviation over the line's length; sine of a direction's angle
   const FootprintRod& rod = footprint.rods[r];
   std::vector<Eigen::Vector3d> points, directions;
-  for (const auto& [hold, end] : {std::pair(rod.begin, 2 * r), {rod.end, 2 * r + 1}}) {
+  for (const auto& [kind, end] : {std::pair(rod.begin, 2 * r), {rod.end, 2 * r + 1}}) {
     const auto column = Eigen::Index(end);
-    if (hold == RodEnd::sprung) return false;
-    if (!is_held(hold)) continue;
+    if (kind == RodEnd::sprung) return false;
+    if (!is_fixed(kind)) continue;
     points.insert(points.end(), {motion.begin.col(column), motion.end.col(column)});
-    if (holds_direction(hold))
+    if (fixes_direction(kind))
       directions.insert(directions.end(),
                         {motion.begin_tangent.col(column), motion.end_tangent.col(column)});
   }
@@ -51,25 +51,25 @@ bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<
 
 std::vector<TurningRod> turning_rods(const Footprint& footprint, const ShellRods& rods,
                                      const BoundaryMotion& motion, RodModel rod_model) {
-  std::vector<int> hold(footprint.joints.size());
+  std::vector<int> connections(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
-    for (const int joint : rod.joints) ++hold[std::size_t(joint)];
-  for (const int joint : footprint.fixed_joints) ++hold[std::size_t(joint)];
+    for (const int joint : rod.joints) ++connections[std::size_t(joint)];
+  for (const int joint : footprint.fixed_joints) ++connections[std::size_t(joint)];
   std::vector<TurningRod> turning;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     if (rod.closed()) continue;
     std::vector<int> hinges;
     std::ranges::copy_if(rod.joints, std::back_inserter(hinges),
-                         [&](int joint) { return hold[std::size_t(joint)] > 1; });
+                         [&](int joint) { return connections[std::size_t(joint)] > 1; });
     // a joint with a law between its rods transmits moments
     if (rod_model == RodModel::twist && std::ranges::any_of(hinges, [&](int joint) {
           return footprint.joints[std::size_t(joint)].centred;
         }))
       continue;
     // a rod that spins freely turns about any two hinges, its section with it
-    const bool spins = !holds_direction(rod.begin) && !holds_direction(rod.end);
-    const auto points = std::ssize(hinges) + is_held(rod.begin) + is_held(rod.end);
+    const bool spins = !fixes_direction(rod.begin) && !fixes_direction(rod.end);
+    const auto points = std::ssize(hinges) + is_fixed(rod.begin) + is_fixed(rod.end);
     if ((spins && points <= 2) || ((spins || rods.material(r).round_and_straight()) &&
                                    stays_on_line(footprint, r, hinges, motion)))
       turning.push_back({r, std::move(hinges)});
@@ -83,11 +83,11 @@ std::vector<TurningNodes> turning_nodes(const std::vector<TurningRod>& turning,
   for (const TurningRod& one : turning) {
     const FootprintRod& rod = footprint.rods[one.rod];
     const std::vector<int>& nodes = mesh.rods[one.rod];
-    const bool spins = !holds_direction(rod.begin) && !holds_direction(rod.end);
+    const bool spins = !fixes_direction(rod.begin) && !fixes_direction(rod.end);
     std::vector<int> axis;
-    if (is_held(rod.begin)) axis.push_back(nodes.front());
+    if (is_fixed(rod.begin)) axis.push_back(nodes.front());
     axis.insert(axis.end(), one.hinges.begin(), one.hinges.end());
-    if (is_held(rod.end)) axis.push_back(nodes.back());
+    if (is_fixed(rod.end)) axis.push_back(nodes.back());
     if (axis.size() > 1 && axis.front() != axis.back())
       found.push_back({axis.front(), axis.back(), nodes, spins ? int(one.rod) : -1});
   }

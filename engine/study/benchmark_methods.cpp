@@ -67,7 +67,7 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
     if (options.globalisation == Globalisation::line_search) {
       // Newton's direction reduces the residual even if the Hessian is indefinite
       const auto unbalanced = [&](Eigen::Matrix3Xd gradient) {
-        clear_held(system.model(), gradient);
+        clear_fixed(system.model(), gradient);
         return gradient.norm();
       };
       const double before = unbalanced(system.assembly().gradient);

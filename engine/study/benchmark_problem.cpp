@@ -23,7 +23,7 @@ constexpr double exact = 1e-8;      // tolerance of references, over the length 
 /// A mesh with its nodes on the net and its ghosts where the motion ends.
 Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model,
                      const PinnedMotion& motion) {
-  TRY(net, places_on_net(scene, mesh));
+  TRY(net, positions_on_net(scene, mesh));
   net->conservativeResize(3, mesh.nodes());
   net->rightCols(mesh.beside_rods()) =
       motion.at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
@@ -120,7 +120,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
 }
 
 void BenchmarkProblem::push(NestedShell& shell) const {
-  shell.drive({.holds = {Constraint{joint_}}, .displacements = {displacement_}});
+  shell.drive({.constraints = {Constraint{joint_}}, .displacements = {displacement_}});
 }
 
 ShellRods BenchmarkProblem::rods_on(const ModelVariant& on) const {
@@ -165,7 +165,7 @@ NestedReport BenchmarkProblem::begin(NestedShell& shell, const Watch& watch) {
   const Model& model = shell.model();
   State start = start_state(model, columns_of(shell.finest(), model, (*known)->start.x));
   start.force = (*known)->start.force;
-  if (task_ == Task::actuation) return shell.place(t_, start);
+  if (task_ == Task::actuation) return shell.start_path(t_, start);
   const NestedReport report = shell.start(1, start, watch);
   if (report.end == Outcome::reached) push(shell);
   return report;

@@ -282,8 +282,8 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   TRY_DO(fits_memory(*scene, plan));
   Result<BranchStart> course = stopped();
   if (preset.indentation.requested())
-    course = simulate::hold_to_push(scene, preset.indentation, plan, watch)
-                 .map([](simulate::HeldShell held) {
+    course = simulate::prepare_push(scene, preset.indentation, plan, watch)
+                 .map([](simulate::PushedShell held) {
                    return BranchStart{std::move(held.simulation), 0, 1, true};
                  });
   else

@@ -121,9 +121,9 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
   Eigen::Matrix3Xd column, product;
   const auto times = [&](const BlockHessian& matrix, Eigen::Index k, double sign) {
     column = basis.col(k).reshaped(3, columns);
-    clear_held(model, column);
+    clear_fixed(model, column);
     multiply(model, matrix, column, product);
-    clear_held(model, product);
+    clear_fixed(model, product);
     return Eigen::VectorXd(sign * product.reshaped());
   };
   double factor = record::unknown;

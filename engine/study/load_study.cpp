@@ -27,7 +27,8 @@ class Loading {
     dead_now_ = simulation.steady_load().begin;
     forces_ = forces_of(load, scene_.footprint, simulation.nodes());
     shell_.set_fields(steady_, forces_);
-    shell_.drive({.holds = simulation.holds(), .load = {dead_now_, load.dead}, .field = {0, 1}});
+    shell_.drive(
+        {.constraints = simulation.constraints(), .load = {dead_now_, load.dead}, .field = {0, 1}});
   }
 
   CriticalLoad on(int level, const State& begin) {

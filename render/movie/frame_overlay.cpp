@@ -213,7 +213,8 @@ std::vector<std::string> state_captions(const record::Frame& frame) {
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                   Drawing& drawing) {
   if (frame.contacts <= 0) return;
-  for (const record::Contact& contact : record::ContactSearch(layout).in(frame.nodes).places)
+  for (const record::Contact& contact :
+       record::ContactSearch(layout).in(frame.nodes).interpenetrations)
     drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
 }
 

@@ -87,7 +87,7 @@ void paper_shell(int runs, Figures& figures) {
   const LevelPlan fine{{4, 8, 16, 32, 64}, true};
   NestedShell reference = shell_of(c, fine, 1e-9);
   const State first = begun(reference);
-  reference.place(parameter(0.98), first);
+  reference.start_path(parameter(0.98), first);
   follow_to(reference, 1);
 
   // F, on the Hessian of a state of the path
@@ -120,7 +120,7 @@ void paper_shell(int runs, Figures& figures) {
                        Outcome::reached;
           }
         },
-        [&] { shell->place(begin, first); });
+        [&] { shell->start_path(begin, first); });
     figures.print(
         "{:34} {:6.2f} F (goal {:g}), a frame {:.2f} F, set-up {:.2f} F, error {:.2e} R_o, "
         "estimate {:.2e} R_o{}\n",
@@ -139,7 +139,7 @@ void paper_shell(int runs, Figures& figures) {
   figures.report("first buckled equilibrium, 4 edges, F", flat / F, "goal 20");
   const double all = median(runs, [&] {
     const State state = begun(coarse);
-    coarse.place(parameter(0.98), state);
+    coarse.start_path(parameter(0.98), state);
     follow_to(coarse, 1);
   });
   figures.report("flat -> 0.75 in all, 1e-3, F", all / F, "goal 40");
@@ -201,7 +201,7 @@ void growth(Figures& figures) {
     start = cpu_now();
     bool reached = first.has_value();
     if (first && follow) {
-      shell.place(parameter(0.98), *first);
+      shell.start_path(parameter(0.98), *first);
       reached = shell.advance(1, unwatched).end == Outcome::reached;
     }
     const double path = cpu_now() - start;
@@ -230,7 +230,7 @@ void drag(Figures& figures) {
             reached &= shell.advance(parameter(0.95 - 0.01 * k), unwatched).end == Outcome::reached;
         },
         [&] {
-          shell.place(parameter(0.98), first);
+          shell.start_path(parameter(0.98), first);
           follow_to(shell, parameter(0.95));
         });
     figures.report(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves,

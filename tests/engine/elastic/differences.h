@@ -20,7 +20,7 @@ inline void check_derivatives(const Model& model, const State& state, const Exte
   std::vector<int> places(std::size_t(3 * model.nodes));
   for (std::size_t k = 0; k < places.size(); ++k) places[k] = int(k);
   std::erase_if(places,
-                [&](int place) { return model.held[std::size_t(place / 3)] == Model::follows; });
+                [&](int place) { return model.fixed[std::size_t(place / 3)] == Model::follows; });
   // two halves of an edge have one angle
   for (const int place : model.spin)
     if (std::ranges::find(places, place) == places.end()) places.push_back(place);

@@ -115,7 +115,7 @@ TEST_CASE(
     if (!std::isinf(stiffness)) continue;
     // the twist angle of the hinge's edge is no unknown
     const int place = model.spin[std::size_t(hinge.pair.e)];
-    CHECK((model.held[std::size_t(place / 3)] >> place % 3 & 1) == 1);
+    CHECK((model.fixed[std::size_t(place / 3)] >> place % 3 & 1) == 1);
     // rotated rigidly, with the terms of rods and joints alone
     Model free = model;
     free.loads.clear(), free.ground.clear(), free.springs.clear();

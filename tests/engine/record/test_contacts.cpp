@@ -59,7 +59,7 @@ Layout lone_rod(int points) {
 }
 
 int count_of(const Contacts& found, ContactKind kind) {
-  return int(std::ranges::count(found.places, kind, &Contact::kind));
+  return int(std::ranges::count(found.interpenetrations, kind, &Contact::kind));
 }
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -115,15 +115,15 @@ TEST_CASE("contacts are those that every pair of edges has, in 200 random states
     const ContactSearch& search = trial % 5 == 0 ? laths : round;
     const Contacts found = search.in(x), all = search.by_all_pairs(x);
     INFO("state " << trial);
-    REQUIRE(found.places.size() == all.places.size());
+    REQUIRE(found.interpenetrations.size() == all.interpenetrations.size());
     CHECK(same(found.rod_gap_mm, all.rod_gap_mm));
     CHECK(same(found.joint_gap_mm, all.joint_gap_mm));
-    for (std::size_t k = 0; k < all.places.size(); ++k) {
-      CHECK(found.places[k].first == all.places[k].first);
-      CHECK(found.places[k].second == all.places[k].second);
-      CHECK(found.places[k].gap_mm == all.places[k].gap_mm);
-      CHECK(all.places[k].gap_mm < 0);
-      itself += all.places[k].first == all.places[k].second;
+    for (std::size_t k = 0; k < all.interpenetrations.size(); ++k) {
+      CHECK(found.interpenetrations[k].first == all.interpenetrations[k].first);
+      CHECK(found.interpenetrations[k].second == all.interpenetrations[k].second);
+      CHECK(found.interpenetrations[k].gap_mm == all.interpenetrations[k].gap_mm);
+      CHECK(all.interpenetrations[k].gap_mm < 0);
+      itself += all.interpenetrations[k].first == all.interpenetrations[k].second;
     }
     rods += count_of(all, ContactKind::rods);
     joints += count_of(all, ContactKind::joints);
@@ -167,10 +167,10 @@ TEST_CASE("rods of a cell that bend onto each other touch, on any mesh at the sa
     const Contacts found = ContactSearch(grid.layout).in(x);
     INFO(edges << " edges");
     REQUIRE(count_of(found, ContactKind::rods) == 1);
-    CHECK(found.places[0].first == 0);
-    CHECK(found.places[0].second == 2);
+    CHECK(found.interpenetrations[0].first == 0);
+    CHECK(found.interpenetrations[0].second == 2);
     CHECK(found.rod_gap_mm < -0.1);
-    CHECK(found.places[0].at.head<2>().norm() == Approx(10).margin(1.5));
+    CHECK(found.interpenetrations[0].at.head<2>().norm() == Approx(10).margin(1.5));
   }
 }
 
@@ -183,14 +183,14 @@ TEST_CASE("laths on edge side by side touch by their widths, not as round rods d
     for (std::size_t rod = 0; rod < grid.layout.rods.size(); ++rod)
       grid.layout.laths_mm.insert(grid.layout.laths_mm.end(), {width, thickness});
     const ContactSearch search(grid.layout);
-    CHECK(search.in(x).places.size() == search.by_all_pairs(x).places.size());
-    return search.in(x).places.size();
+    CHECK(search.in(x).interpenetrations.size() == search.by_all_pairs(x).interpenetrations.size());
+    return search.in(x).interpenetrations.size();
   };
   CHECK(places(1, 6) == 0);
   CHECK(places(6, 1) > 0);
   grid.layout.laths_mm.clear();
   grid.layout.rod_diameter_mm = std::sqrt(4 * 6 / std::numbers::pi);  // of their area
-  CHECK(ContactSearch(grid.layout).in(x).places.size() > 0);
+  CHECK(ContactSearch(grid.layout).in(x).interpenetrations.size() > 0);
 }
 
 TEST_CASE("rods that are fixed at one point of the boundary are near there, and cross after it") {
@@ -203,7 +203,7 @@ TEST_CASE("rods that are fixed at one point of the boundary are near there, and 
       x.col(k) << 5 * k, 0, 0;
       x.col(6 + k) = begin + 5 * k * way.normalized();
     }
-    return ContactSearch(layout).in(x).places;
+    return ContactSearch(layout).in(x).interpenetrations;
   };
   for (const double degrees : {8, 30, 90, 170})
     CHECK(found({0, 0, 0.1}, {std::cos(degrees * degree), std::sin(degrees * degree), 0}).empty());
@@ -225,14 +225,14 @@ TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
   const ContactSearch search(lone_rod(points));
   helix(5, 0.9);
   const Contacts touching = search.in(x);
-  REQUIRE(touching.places.size() == 1);
-  CHECK(touching.places[0].first == touching.places[0].second);
+  REQUIRE(touching.interpenetrations.size() == 1);
+  CHECK(touching.interpenetrations[0].first == touching.interpenetrations[0].second);
   CHECK(touching.rod_gap_mm == Approx(-0.1).margin(0.01));
   helix(5, 1.2);
-  CHECK(search.in(x).places.empty());
+  CHECK(search.in(x).interpenetrations.empty());
   CHECK(search.in(x).rod_gap_mm == Approx(0.2).margin(0.01));
   helix(0.7, 8);  // as tight as it may be
-  CHECK(search.in(x).places.empty());
+  CHECK(search.in(x).interpenetrations.empty());
   // a ring closes at its joint
   Layout ring = lone_rod(points);
   ring.rods[0].push_back(0);
@@ -240,7 +240,7 @@ TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
   for (int k = 0; k < points; ++k)
     x.col(k) << 5 * std::cos(2 * std::numbers::pi * k / points),
         5 * std::sin(2 * std::numbers::pi * k / points), 0;
-  CHECK(ContactSearch(ring).in(x).places.empty());
+  CHECK(ContactSearch(ring).in(x).interpenetrations.empty());
 }
 
 TEST_CASE("neighbours along a rod do not touch where its points are closer than its thickness") {
@@ -256,17 +256,17 @@ TEST_CASE("neighbours along a rod do not touch where its points are closer than 
     const double angle = 0.01 * k;
     x.col(k) << 40 * std::cos(angle), 40 * std::sin(angle), 0;
   }
-  CHECK(ContactSearch(layout).in(x).places.empty());
-  CHECK(ContactSearch(layout).by_all_pairs(x).places.empty());
+  CHECK(ContactSearch(layout).in(x).interpenetrations.empty());
+  CHECK(ContactSearch(layout).by_all_pairs(x).interpenetrations.empty());
   // windings of a helix do touch
   for (int k = 0; k < points; ++k) {
     const double angle = 4 * std::numbers::pi * k / points;
     x.col(k) << 5 * std::cos(angle), 5 * std::sin(angle), 0.9 * angle / (2 * std::numbers::pi);
   }
   const Contacts helix = ContactSearch(layout).in(x);
-  CHECK_FALSE(helix.places.empty());
+  CHECK_FALSE(helix.interpenetrations.empty());
   CHECK(helix.rod_gap_mm == Approx(-0.1).margin(0.01));
-  CHECK(std::ranges::all_of(helix.places,
+  CHECK(std::ranges::all_of(helix.interpenetrations,
                             [](const Contact& at) { return at.kind == ContactKind::rods; }));
   // for a ring also across the point at which it starts
   Layout ring = layout;
@@ -275,8 +275,8 @@ TEST_CASE("neighbours along a rod do not touch where its points are closer than 
     const double angle = 2 * std::numbers::pi * k / points;
     x.col(k) << 20 * std::cos(angle), 20 * std::sin(angle), 0;
   }
-  CHECK(ContactSearch(ring).in(x).places.empty());
-  CHECK(ContactSearch(ring).by_all_pairs(x).places.empty());
+  CHECK(ContactSearch(ring).in(x).interpenetrations.empty());
+  CHECK(ContactSearch(ring).by_all_pairs(x).interpenetrations.empty());
 }
 
 TEST_CASE("a table is touched more than a radius below its plane, where there is one") {
@@ -284,13 +284,13 @@ TEST_CASE("a table is touched more than a radius below its plane, where there is
   Eigen::Matrix3Xd x = grid.sheared(90 * degree);
   x.row(2).setConstant(-0.12);
   grid.layout.table_mm = 0;
-  CHECK(ContactSearch(grid.layout).in(x).places.empty());
+  CHECK(ContactSearch(grid.layout).in(x).interpenetrations.empty());
   x(2, grid.layout.rods[1][2]) = -1;
   const Contacts found = ContactSearch(grid.layout).in(x);
-  REQUIRE(found.places.size() == 1);
-  CHECK(found.places[0].kind == ContactKind::table);
-  CHECK(found.places[0].first == 1);
-  CHECK(found.places[0].gap_mm == Approx(0.127 - 1));
+  REQUIRE(found.interpenetrations.size() == 1);
+  CHECK(found.interpenetrations[0].kind == ContactKind::table);
+  CHECK(found.interpenetrations[0].first == 1);
+  CHECK(found.interpenetrations[0].gap_mm == Approx(0.127 - 1));
   grid.layout.table_mm = unknown;
-  CHECK(ContactSearch(grid.layout).in(x).places.empty());
+  CHECK(ContactSearch(grid.layout).in(x).interpenetrations.empty());
 }

@@ -124,7 +124,7 @@ TEST_CASE("a shell that begins in contact goes no deeper into it, and may leave 
   const auto scene = value_of(shared_scene_of(preset));
   Simulation shell = value_of(Simulation::open(scene, {{4}, false}));
   REQUIRE(value_of(shell.begin_buckled(0.05, unwatched)).end == Outcome::reached);
-  REQUIRE(!shell.contacts().places.empty());
+  REQUIRE(!shell.contacts().interpenetrations.empty());
   const double begun = shell.progress();
   CHECK(shell.move_to(begun + 0.1, unwatched).end == Outcome::contact);
   CHECK(shell.progress() == Approx(begun).margin(1e-3));

@@ -50,7 +50,7 @@ Result<SharedPath> policy(const Scene& scene, const Prescribe& prescribed,
     if (one.event) {
       Event event{.t = one.event_t, .error = {}, .to = one.event_t + 0.01};
       event.confirmed = *one.event;
-      event.placed = {edges, one.event_t, 0};
+      event.location = {edges, one.event_t, 0};
       segment.report.events.push_back(event);
     }
     path->segments.push_back(std::move(segment));

@@ -70,13 +70,13 @@ TEST_CASE("a session goes through all that a user does, and back by its checkpoi
   const Eigen::Vector3d down(0, 0, -0.4);
   keep(session.push(7, down, Across::free, unwatched));
   CHECK((session.nodes().col(7) - nodes[2].col(7)).z() == Approx(-0.4).margin(1e-2));
-  keep(session.push(12, down, Across::held, unwatched));
-  CHECK(session.holds().size() == 2);
+  keep(session.push(12, down, Across::fixed, unwatched));
+  CHECK(session.constraints().size() == 2);
   CHECK(std::abs(session.force(0).z()) > 1e-4);
   keep(session.release(7, unwatched));
-  CHECK(session.holds().size() == 1);
+  CHECK(session.constraints().size() == 1);
   keep(session.release(12, unwatched));
-  CHECK(session.holds().empty());
+  CHECK(session.constraints().empty());
   // after both releases the shell is as it was before the pushes
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-3);
   std::vector<NodeAction> field;
@@ -126,7 +126,7 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   CHECK(session.push(7, {0, 0, -5}, Across::free, watch).end == Outcome::cancelled);
   CHECK(max_column_norm(session.nodes() - before) < 1e-6);
   // a push that did not start prescribes nothing
-  CHECK(session.holds().empty());
+  CHECK(session.constraints().empty());
   CHECK(session.move_to(0.9, watch).end == Outcome::cancelled);
   CHECK(session.load(2, watch).end == Outcome::cancelled);
   CHECK(session.move_to(1, unwatched).end == Outcome::reached);
@@ -186,7 +186,7 @@ TEST_CASE("a session begins flat, on other meshes, fixes a joint where it is and
 
   // a fixed joint stays while the boundary moves, and the shell relaxes when it is released
   const Eigen::Vector3d place = session.nodes().col(5);
-  certified(session, session.push(5, {0, 0, 0}, Across::held, unwatched));
+  certified(session, session.push(5, {0, 0, 0}, Across::fixed, unwatched));
   CHECK(session.force(0).norm() < 1e-5);
   certified(session, session.move_to(shell_progress(session.scene(), 0.805), unwatched));
   CHECK((session.nodes().col(5) - place).norm() < 1e-6);

@@ -14,7 +14,7 @@ namespace {
 double force_at(const Model& unloaded, State state, double height) {
   Linearisation system(unloaded);
   const Constraint held{0, Eigen::Vector3d::UnitZ()};
-  system.hold({held});
+  system.constrain({held});
   const double begin = state.x(2, 0);
   constexpr int steps = 60;
   for (int k = 1; k <= steps; ++k) {

@@ -76,9 +76,9 @@ double spring(int edges) {
   Model model = single.model();
   // six unknowns that fix it in space; the force passes through the first
   model.pin(0);
-  model.hold(1, 1);
-  model.hold(1, 2);
-  model.hold_spin(0);
+  model.fix(1, 1);
+  model.fix(1, 2);
+  model.fix_spin(0);
   finish(model);
   const auto chord = [&](const State& state) -> Eigen::Vector3d {
     return state.x.col(edges) - state.x.col(0);
@@ -136,13 +136,13 @@ double arch(int edges) {
     x.col(k) << R * std::sin(angle), 0, R * std::cos(angle);
   }
   Model model = build_model(edges + 1, {rod}, RodModel::twist).value();
-  for (int k = 0; k <= edges; ++k) model.hold(k, 1);
+  for (int k = 0; k <= edges; ++k) model.fix(k, 1);
   finish(model);
   State state = start_state(model, x);
   set_end_direction(model, 0, false, {std::cos(half), 0, std::sin(half)}, state);
   Linearisation system(model);
   const Constraint crown{edges / 2, Eigen::Vector3d::UnitZ()};
-  system.hold({crown});
+  system.constrain({crown});
   constexpr double step = 0.01 * R;
   double before = 0, here = 0;
   Eigen::Matrix3Xd last = state.x;

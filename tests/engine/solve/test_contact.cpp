@@ -64,12 +64,12 @@ TEST_CASE("contact: two crossed rods press with the load, at the distance of the
   Model model = build_model(2 * edges + 2, rods, rod_model).value();
   let_touch(rods, model);
   model.pin(0);
-  for (const int row : {1, 2}) model.hold(edges, row);
+  for (const int row : {1, 2}) model.fix(edges, row);
   for (int k = 0; k <= edges; ++k) {
-    if (k > 0 && k < edges) model.hold(k, 1);
-    model.hold(edges + 1 + k, 0);
+    if (k > 0 && k < edges) model.fix(k, 1);
+    model.fix(edges + 1 + k, 0);
   }
-  model.hold(edges + 1 + edges / 2, 1);
+  model.fix(edges + 1 + edges / 2, 1);
   for (const int end : {edges + 1, 2 * edges + 1}) model.loads.push_back({end, {0, 0, -load}});
   finish(model);
   Matrix3Xd x(3, model.nodes);

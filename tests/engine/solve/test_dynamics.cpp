@@ -94,7 +94,7 @@ TEST_CASE("a shallow arch of two crossing rods snaps in time and ends in a certi
     CAPTURE(lateral_free);
     Constraint held{0};
     if (lateral_free) held.directions = Eigen::Vector3d::UnitZ();
-    system.hold({held});
+    system.constrain({held});
     State pushed = state;
     bool flagged = false;
     while (!flagged && pushed.x(2, 0) > -height) {
@@ -135,7 +135,7 @@ TEST_CASE("a shallow arch of two crossing rods snaps in time and ends in a certi
     REQUIRE(report.outcome == Outcome::reached);
     CHECK(report.first_move_mm < 1e-2);
     CHECK(system.at(rest, false).positive_definite());
-    system.hold({});
+    system.constrain({});
   }
 }
 

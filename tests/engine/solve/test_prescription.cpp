@@ -49,7 +49,7 @@ TEST_CASE(
     const Eigen::Index n = K.rows(), m = directions;
     const Eigen::MatrixXd whole = bordered(model, K, held);
     Linearisation system(model);
-    system.hold({held});
+    system.constrain({held});
     const Inertia inertia = system.at(shell.state, false);
 
     Eigen::MatrixXd symmetric = whole;
@@ -80,7 +80,8 @@ TEST_CASE(
     for (int k = 0; k < n; ++k)
       REQUIRE(velocity(k % 3, model.free_columns[k / 3]) ==
               Approx(moving[k]).margin(1e-8 * moving.head(n).cwiseAbs().maxCoeff()));
-    CHECK(system.held_stiffness()(0, 0) == Approx(moving[n]).margin(1e-7 * std::abs(moving[n])));
+    CHECK(system.constraint_stiffness()(0, 0) ==
+          Approx(moving[n]).margin(1e-7 * std::abs(moving[n])));
   }
 }
 
@@ -99,7 +100,7 @@ TEST_CASE("a joint prescribed along a direction that K does not resist is found 
   Constraint held{shell.model.free_columns[strongest / 3], Eigen::Matrix3Xd::Zero(3, 1)};
   held.directions(strongest % 3, 0) = 1;
   Linearisation system(shell.model);
-  system.hold({held});
+  system.constrain({held});
   const Inertia inertia = system.at(rest, false, beyond);
   Eigen::MatrixXd shifted = K;
   shifted.diagonal().array() += beyond;

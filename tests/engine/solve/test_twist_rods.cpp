@@ -99,9 +99,9 @@ double michell(int edges, double ratio) {
   // six unknowns that fix the ring in space and nothing more
   const int third = edges / 3;
   model.pin(0);
-  model.hold(third, 0);
-  model.hold(third, 2);
-  model.hold(2 * third, 2);
+  model.fix(third, 0);
+  model.fix(third, 2);
+  model.fix(2 * third, 2);
   finish(model);
   Linearisation system(model);
   const State flat = start_state(model, x);
@@ -166,9 +166,9 @@ TEST_CASE("twist model: a rod with natural curvature and twist is the exact heli
     Model model = single.model();
     // six unknowns that fix it in space
     model.pin(0);
-    model.hold(1, 1);
-    model.hold(1, 2);
-    model.hold_spin(0);
+    model.fix(1, 1);
+    model.fix(1, 2);
+    model.fix_spin(0);
     finish(model);
     Linearisation system(model);
     State state = start_state(model, single.line());
@@ -259,7 +259,7 @@ TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") 
   add_joint_shear(model, {0, 1, 1, 1}, {stiffness});
   model.loads.push_back({3, {couple / 20, 0, 0}});
   model.loads.push_back({4, {-couple / 20, 0, 0}});
-  for (int node : {3, 4}) model.hold(node, 2);  // in the plane
+  for (int node : {3, 4}) model.fix(node, 2);  // in the plane
   finish(model);
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, 9);
   x.row(0) << -10, 0, 10, 0, 0, -5, 5, 0, 0;

@@ -30,8 +30,8 @@ CriticalLoad shallow_arch(int edges) {
   const Eigen::Matrix3Xd line = single.line(1, rise);
   for (ModelEdge& edge : model.edges)
     edge.rest_length = (line.col(edge.to) - line.col(edge.from)).norm();
-  for (int node = 0; node <= edges; ++node) model.hold(node, 1);
-  for (int edge = 0; edge < edges; ++edge) model.hold_spin(edge);
+  for (int node = 0; node <= edges; ++node) model.fix(node, 1);
+  for (int edge = 0; edge < edges; ++edge) model.fix_spin(edge);
   finish(model);
   const State rest = start_state(model, line);
   for (auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs)) {
@@ -50,8 +50,8 @@ CriticalLoad column(int edges, const CriticalOptions& options = {}) {
   constexpr double stiff = 1e7;
   const SingleRod single(edges, L, {stiff, EI, EI, EI, {0, 0}, 0}, RodEnd::pinned, RodEnd::free);
   Model model = single.model();
-  for (const int row : {1, 2}) model.hold(edges, row);
-  for (int node = 0; node <= edges; ++node) model.hold(node, 1);
+  for (const int row : {1, 2}) model.fix(edges, row);
+  for (int node = 0; node <= edges; ++node) model.fix(node, 1);
   model.loads.push_back({edges, {-EI * k * k, 0, 0}});
   finish(model);
   return loaded(model, start_state(model, single.line()), options);
@@ -65,7 +65,7 @@ CriticalLoad buckled_arch(int edges) {
   const SingleRod single(edges, L, {1e7, thin, thin, thin, {0, 0}, 0}, RodEnd::pinned,
                          RodEnd::pinned);
   Model model = single.model();
-  for (int node = 0; node <= edges; ++node) model.hold(node, 1);
+  for (int node = 0; node <= edges; ++node) model.fix(node, 1);
   finish(model);
   State state = start_state(model, single.line(1 - a * a * k * k / 4, a));
   Linearisation system(model);
