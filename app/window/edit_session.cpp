@@ -141,9 +141,11 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rod_model == RodModel::net)
     return invalid("the model 'net' is geometry alone: there is nothing to push");
-  // on the mesh on which a run follows the path, so that both reach the same states
-  const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
-  TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
+  // on the meshes of a run, so that both reach the same states; while a number is dragged on one
+  // mesh, which does not know whether finer ones have its events
+  const LevelPlan one{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
+  TRY(course, passing_ ? simulate::follow_actuation(scene, one, false, 1, watch)
+                       : simulate::converged_actuation(scene, false, 1, watch));
   std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : course->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
@@ -245,14 +247,14 @@ Result<void> EditSession::change_rods(const preset::Preset& preset, const Watch&
   TRY(scene, shared_scene_of(changed));
   if ((*scene)->rod_model != now_.scene->rod_model) return rebuild_shell(preset, watch);
   const Checkpoint before = session_->save();
-  const bool within_limits = !session_->beyond_limits();
+  const bool within_limits = !session_->limit_exceeded();
   TRY(report, session_->set_rods((*scene)->rods, watch));
   TRY_DO(note_events(*report));
   // diameters and strengths are those of the scene that a session has
   const Checkpoint state = session_->save();
   TRY(session, Simulation::open(*scene, state.shell->plan()));
   session->restore(state);
-  if (const auto limit = session->beyond_limits(); limit && within_limits) {
+  if (const auto limit = session->limit_exceeded(); limit && within_limits) {
     session_->restore(before);
     return invalid("these rods would be past a limit in this state ({}): move the shell back first",
                    text_of_events({*limit}));

@@ -100,7 +100,7 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
                             const Watch& watch) {
   Simulation& simulation = path.simulation;
   PathSegment segment{{}, simulation.shell().state().t, to, {}};
-  const auto begun = to < segment.from ? std::nullopt : simulation.beyond_limits();
+  const auto begun = to < segment.from ? std::nullopt : simulation.limit_exceeded();
   segment.report = simulation.go(begun ? segment.from : to, watch, leaving, &segment);
   if (begun) {
     segment.report.end = outcome_of(begun->kind);

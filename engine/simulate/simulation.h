@@ -177,14 +177,14 @@ inline constexpr double nearest_mm = 1e-9;
 enum class Across { free, fixed };
 
 namespace simulate {
-class KeptSegments;
+class SavedSegments;
 }
 
 /// Services of a run, which change no result.
 struct RunContext {
   std::shared_ptr<Team> team;  ///< threads for large shells; null: one thread
-  /// Saved segments of the path, from which the run continues; null: none (kept_segments.h).
-  std::shared_ptr<simulate::KeptSegments> segments;
+  /// Saved segments of the path, from which the run continues; null: none (saved_segments.h).
+  std::shared_ptr<simulate::SavedSegments> segments;
 };
 
 /// A simulation of one scene. It is not thread-safe. A watch may be cancelled from any thread; the
@@ -298,7 +298,7 @@ class Simulation {
   /// Whether the axial strain has reached its limit.
   bool locked() const;
   /// The limit of the scene that the current state exceeds, an event with is_limit(); empty: none.
-  std::optional<Event> beyond_limits() const;
+  std::optional<Event> limit_exceeded() const;
   /// Largest strain of a fibre by bending, dimensionless, on the finest mesh.
   double bending_strain() const;
   /// Interpenetrations in nodes(), the shape that is shown.
@@ -338,7 +338,7 @@ class Simulation {
   std::pair<double, std::string> strained() const;
   Limits limits() const;
   Limits limits_here() const;
-  std::optional<Event> beyond(const Limits& limits) const;
+  std::optional<Event> exceeded(const Limits& limits) const;
   class Walk;
 
   std::shared_ptr<const Scene> scene_;
