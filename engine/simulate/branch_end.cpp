@@ -31,7 +31,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
     bisect(next, good, [] { return true; });
   else if (scene_.stops_at_contact || scene_.limits_strength())
     shell_.advance(shell_.followed().t, watch_);
-  if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), now(), good);
+  if (auto limit = of_.exceeded(limits_)) return end_before(std::move(*limit), now(), good);
   if (now() != good.t) note();
   const NestedState end_of_branch = shell_.state();
   Event event{.kind = kind, .t = shell_.followed().t, .error = {}, .to = {}};
@@ -48,7 +48,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
     events_.push_back(std::move(event));
     return watch_.cancelled() ? Outcome::cancelled : how;
   }
-  if (auto limit = of_.beyond(limits_)) {
+  if (auto limit = of_.exceeded(limits_)) {
     // the new equilibrium exceeds a limit: the path ends before the snap
     shell_.back_to(end_of_branch);
     if (limit->kind == Event::Kind::locked) limit->what = "past a snap";
@@ -151,19 +151,20 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   };
   constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // in scales
   bool found = false;
-  for (double beyond = nearest; !found && beyond < farthest && !watch_.cancelled(); beyond *= 2) {
-    found = leave_to(at(beyond), last, event, moments);
-    if (at(beyond) == to_) break;
+  for (double distance = nearest; !found && distance < farthest && !watch_.cancelled();
+       distance *= 2) {
+    found = leave_to(at(distance), last, event, moments);
+    if (at(distance) == to_) break;
   }
   if (!found || event.kind != Event::Kind::stability_lost || scene_.snap.requested ||
       !skipped_a_branch(last))
     return found;
   const NestedState far = shell_.state();
   const Event to_far = event;
-  for (double beyond = nearest / 2; beyond > nearest_by_far; beyond /= 2) {
+  for (double distance = nearest / 2; distance > nearest_by_far; distance /= 2) {
     shell_.back_to(far);
     shell_.start_path(last.t, last.state);
-    if (leave_to(at(beyond), last, event, moments) && !skipped_a_branch(last)) return true;
+    if (leave_to(at(distance), last, event, moments) && !skipped_a_branch(last)) return true;
     if (watch_.cancelled()) return false;
   }
   shell_.back_to(far);
@@ -192,7 +193,7 @@ Outcome Simulation::Walk::end_at(Event limit) {
 /// Ends in the last state between `good` and `bad` that exceeds no limit.
 Outcome Simulation::Walk::end_before(Event limit, double bad, const NestedState& good) {
   bisect(bad, good, [&] {
-    auto met = of_.beyond(limits_);
+    auto met = of_.exceeded(limits_);
     if (met) limit = std::move(*met);
     return !met;
   });

@@ -80,14 +80,14 @@ void Simulation::Walk::note() {
 }
 
 /// Reports the path parameter to the observer.
-void Simulation::Walk::tell() const {
-  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
+void Simulation::Walk::report_position() const {
+  if (&watch_ != &unwatched) watch_.set_position(now(), shell_.plan().edges_per_segment.back());
 }
 
 /// Records the current state as a load step from which the path continues.
 void Simulation::Walk::keep() {
   note();
-  tell();
+  report_position();
   keep_companion();
   if (!watches_stability()) return;
   softening_.take(shell_.state());
@@ -120,7 +120,7 @@ bool Simulation::Walk::goes_on() {
   shell_.allow_unstable(leaving_.through_unstable || stays);
   shell_.back_to(segment_.state);
   note_return();
-  tell();
+  report_position();
   return true;
 }
 
@@ -160,7 +160,7 @@ Outcome Simulation::Walk::step() {
 }
 
 Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
-  if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), next, good);
+  if (auto limit = of_.exceeded(limits_)) return end_before(std::move(*limit), next, good);
   note_return();
   keep();
   return too_coarse() ? Outcome::too_coarse : Outcome::reached;
@@ -168,9 +168,9 @@ Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
 
 /// Whether a path that started past a limit has returned: the limit then applies as usual.
 void Simulation::Walk::note_return() {
-  if (!from_beyond_ || of_.beyond_limits()) return;
+  if (!from_exceeded_ || of_.exceeded_limit()) return;
   limits_ = of_.limits();
-  from_beyond_ = false;
+  from_exceeded_ = false;
 }
 
 /// Whether the path need not be followed further on this mesh: its error estimate is above the
@@ -186,12 +186,12 @@ bool Simulation::Walk::too_coarse() {
   return std::abs(now() - *unmeasured_since_) > plan.events_apart;
 }
 
-Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
+Report Simulation::sample(double t, const LoadStep& nearest, bool unstable, const Watch& watch,
                           const LoadStep* across) {
   const CallBegin begin = call_begin();
-  shell_->allow_unstable(unstable || !beside.certificate.stable());
+  shell_->allow_unstable(unstable || !nearest.certificate.stable());
   const NestedReport nested =
-      shell_->sample(t, beside.point, watch, across ? &across->point : nullptr);
+      shell_->sample(t, nearest.point, watch, across ? &across->point : nullptr);
   shell_->allow_unstable(false);
   return report(nested.end, nested.t, begin);
 }

@@ -43,7 +43,7 @@ class Simulation::Walk {
  private:
   double now() const { return shell_.state().t; }
   void note();
-  void tell() const;
+  void report_position() const;
   void keep();
   bool goes_on();
   bool watches_stability() const {
@@ -76,7 +76,7 @@ class Simulation::Walk {
   const Watch& watch_;
   // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
-  bool from_beyond_ = of_.beyond_limits().has_value();
+  bool from_exceeded_ = of_.exceeded_limit().has_value();
   StabilityStepControl softening_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since

@@ -35,7 +35,7 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, RunContext context)
 
 record::Contacts Simulation::contacts() const { return search_->in(nodes()); }
 
-std::optional<Event> Simulation::beyond_limits() const { return beyond(limits()); }
+std::optional<Event> Simulation::exceeded_limit() const { return exceeded(limits()); }
 
 Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                     const RunContext& context) {
@@ -163,7 +163,7 @@ Simulation::Limits Simulation::limits_here() const {
   return here;
 }
 
-std::optional<Event> Simulation::beyond(const Limits& limits) const {
+std::optional<Event> Simulation::exceeded(const Limits& limits) const {
   Event met{Event::Kind::locked, shell_->state().t, {}, {}};
   if (locked()) return met;
   met.kind = Event::Kind::overbent;
