@@ -8,7 +8,7 @@ out vec3 surface;                // colour
 out vec4 shade;                  // position on the shadow map; shine_hue()
 out vec4 half_way;               // unit vector half way between eye and light; haze_at()
 out vec3 right, up, axis;        // of the card; of the cylinder
-out vec2 place;                  // position on the card, in samples
+out vec2 on_card;                // position on the card, in samples
 // radius in samples; distance of a cylinder's ends from its middle as seen, in samples, or -1 of a
 // ball; cosine between axis and line of sight
 out vec3 shape;
@@ -25,9 +25,9 @@ void main() {
   float along = dot(axis, sight);
   shape = vec3(radius, code >= 2 ? -1.0 : height * radius * sqrt(max(0.0, 1.0 - along * along)), along);
   float high = code >= 2 ? radius : shape.y + radius * abs(along);
-  place = vec2(sign(direction.w), (code & 1) == 1 ? 1.0 : -1.0) * (vec2(radius, high) + 1.0);
+  on_card = vec2(sign(direction.w), (code & 1) == 1 ? 1.0 : -1.0) * (vec2(radius, high) + 1.0);
   surface = colour.rgb;
   shade = vec4(on_map(position), shine_hue(colour.rgb));
   half_way = vec4(normalize(sight + light_direction), haze_at(position));
-  gl_Position = view_projection * vec4(position + unit * (place.x * right + place.y * up), 1.0);
+  gl_Position = view_projection * vec4(position + unit * (on_card.x * right + on_card.y * up), 1.0);
 }

@@ -6,6 +6,6 @@ uniform float density;  // fraction of the light that an opaque colour blocks
 out vec4 fragment;
 
 void main() {
-  float held = density * cover;
-  fragment = vec4(held, held * height, 0.0, held);
+  float blocked = density * cover;
+  fragment = vec4(blocked, blocked * height, 0.0, blocked);
 }

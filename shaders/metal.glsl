@@ -4,17 +4,17 @@ uniform float unlit;  // 1: in its own colour, as a colour bar has it; 0: lit
 
 // Quantities of a surface that are computed per vertex.
 struct Metal {
-  vec4 surface;  // colour
-  float hue;     // shine_hue()
-  float pale;    // haze_at()
-  vec3 place;    // position on the shadow map
+  vec4 surface;          // colour
+  float hue;             // shine_hue()
+  float pale;            // haze_at()
+  vec3 shadow_position;  // position on the shadow map
 };
 
 // The colour of a point. Cosines of its normal with the directions to the light, half way between
 // light and eye, and to the eye; `up` is the normal's vertical component.
 vec4 metal(Metal metal, float to_light, float half_way, float to_eye, float up) {
   float facing_light = max(to_light, 0.0);
-  float key_light = facing_light > 0.0 ? key * lit(metal.place) : 0.0;
+  float key_light = facing_light > 0.0 ? key * lit(metal.shadow_position) : 0.0;
   float gloss = max(half_way, 0.0);
   gloss *= gloss;  // five squares: the power of 32
   gloss *= gloss;

@@ -11,7 +11,7 @@ out vec4 light_and_up;
 // cosines of across and facing with the direction half way between eye and light; cosine of facing
 // with the direction to the eye; haze_at()
 out vec4 gloss_and_eye;
-out vec2 place;  // position across the strip; radius of the rod; in samples
+out vec2 on_strip;  // position across the strip; radius of the rod; in samples
 
 void main() {
   float unit = unit_at(position);
@@ -25,6 +25,6 @@ void main() {
   light_and_up = vec4(dot(across, light_direction), dot(facing, light_direction), across.z, facing.z);
   gloss_and_eye = vec4(dot(across, half_way), dot(facing, half_way), dot(facing, sight),
                        haze_at(position));
-  place = vec2(sign(direction.w) * reach, radius) / unit;
+  on_strip = vec2(sign(direction.w) * reach, radius) / unit;
   gl_Position = view_projection * vec4(position + sign(direction.w) * reach * across, 1.0);
 }

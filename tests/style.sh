@@ -6,7 +6,8 @@
 # tests/style.sh equal           no 50 tokens occur twice in engine/ unless equal_tokens.txt says why
 # tests/style.sh names           every source file that a comment or a .md file names is there
 # tests/style.sh pages           pages have short paragraphs and cells; the README and versions of CHANGELOG are short
-# tests/style.sh words           pages, comments and strings use the words of the glossary, not those of tests/words.txt
+# tests/style.sh words           pages, comments, strings and identifiers use the words of the glossary, not those of
+#                                tests/words.txt
 #
 # BUILD (default build) is a folder that cmake has configured. `tidy` and `clang` take the files that differ
 # from the merge base with the main branch (BASE, default main), also by changes that are not committed.
@@ -244,8 +245,29 @@ strings() {
         if (text ~ / /) printf "%s:%d:0: %s\n", FILENAME, FNR, text } }'
 }
 
+# words that users write in presets, and names of libraries, which code repeats
+of_others='(StepKind|Do|K)::hold|case hold:|Lateral::held|hold_first_s|hold_s|OnContact::tell|(M::|movie[.]|bool )beside'
+of_others="$of_others|enum class (StepKind|Lateral|OnContact) [{].*|holds_alternative|reverseInPlace"
+
+# identifiers that have a word of the third column of words.txt as a part, by _ or capitals
+identifiers() {
+  find engine render app shaders -name '*.h' -o -name '*.cpp' -o -path 'shaders/*.*' ! -name '*.md' | sort |
+    xargs awk -v of_others="$of_others" '
+    NR == FNR { if (!/^#/ && split($0, part, "\t") > 2) { bad[++n] = part[3]; good[n] = part[2] } next }
+    { line = $0; gsub(/"([^"\\]|\\.)*"/, "\"", line); sub(/\/\/.*/, "", line); gsub(of_others, "", line)
+      while (match(line, /[A-Za-z_][A-Za-z0-9_]*/)) {
+        name = parts = substr(line, RSTART, RLENGTH); line = substr(line, RSTART + RLENGTH); ++all
+        while (match(parts, /[a-z0-9][A-Z]/)) parts = substr(parts, 1, RSTART) " " substr(parts, RSTART + 1)
+        gsub(/_/, " ", parts); parts = " " tolower(parts) " "
+        for (k = 1; k <= n; ++k) if (match(parts, " (" bad[k] ") ")) {
+          printf "%s:%d: %s: \"%s\": write %s\n", FILENAME, FNR, name, substr(parts, RSTART + 1, RLENGTH - 2), good[k]
+          ++errors } } }
+    END { printf "%d identifiers, %d to rename\n", all, errors; exit !(all > 300000 && n > 5 && !errors) }' tests/words.txt
+}
+
 words() {
   pages_status=0
+  identifiers || pages_status=1
   awk 'NR == FNR { if ($0 !~ /^#/) { split($0, part, "\t"); bad[++n] = part[1]; good[n] = part[2] } next }
     FNR == 1 { code = 0; ++files }
     /^ *```/ { code = !code; next }
@@ -277,5 +299,5 @@ case ${1:-} in
   warnings) warnings ;;
   equal) equal ;;
   names) names ;;
-  *) sed -n '2,9p' "$0"; exit 2 ;;
+  *) sed -n '2,10p' "$0"; exit 2 ;;
 esac

@@ -149,7 +149,7 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
   TRY_DO(plot("scaling", render::scaling_plot(found->scaling, title + ": time over size"), low));
   ChartReport findings;
   findings.summary["reference_error"] = found->reference_error;
-  for (const auto& at : found->standings) {
+  for (const auto& at : found->outcomes) {
     findings.text += fmt::format(
         "auto at {:.0e}: error {:.1e} in {:.3f} s, {:.2f} times as long as the fastest method that "
         "is as accurate, {:.2f} times as long as the fastest within the tolerance\n",

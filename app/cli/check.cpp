@@ -47,7 +47,8 @@ std::string joint_text(const preset::Indentation& push, const Scene& scene) {
       return fmt::format("joint [{}, {}]", at.i, at.j);
     }
   }
-  if (push.at == preset::IndentationPlace::highest) return "the highest joint of the formed shell";
+  if (push.at == preset::IndentationPosition::highest)
+    return "the highest joint of the formed shell";
   if (push.latitude_deg == 90) return "the joint of the formed shell nearest to the pole";
   return fmt::format(
       "the joint of the formed shell nearest to latitude {:g}, longitude {:g} degrees",

@@ -32,16 +32,16 @@ std::string left_text(const ProgressState& at) {
 }
 
 // seconds between the lines about the path that is followed, and before the first of them
-constexpr double place_every_s = 5, first_place_s = 1;
+constexpr double line_every_s = 5, first_line_s = 1;
 
 /// Text with the parameter of the path that is being followed, and the time left on these meshes;
 /// empty if none is followed.
 std::string path_text(const Watch& watch, PathPace& pace) {
-  const Watch::Place place = watch.place();
-  if (place.edges == 0 || watch.progress() >= 0.5) return "";
-  const double left = pace.seconds_left(place, seconds_now());
-  return fmt::format(": the path at {:.3f}, on {} edges per segment, time left on them {}", place.t,
-                     place.edges, std::isnan(left) ? "unknown" : time_text(left));
+  const Watch::Position position = watch.position();
+  if (position.edges == 0 || watch.progress() >= 0.5) return "";
+  const double left = pace.seconds_left(position, seconds_now());
+  return fmt::format(": the path at {:.3f}, on {} edges per segment, time left on them {}",
+                     position.t, position.edges, std::isnan(left) ? "unknown" : time_text(left));
 }
 
 // complete files in a folder that was not finished
@@ -127,8 +127,8 @@ std::string remove_unfinished_files(const fs::path& partial) {
 
 }  // namespace
 
-ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
-                       double elapsed) {
+ProgressState progress_of(const std::vector<Phase>& phases, std::size_t current, double fraction,
+                          double elapsed) {
   double all = 0, before = 0, after = 0;
   for (std::size_t k = 0; k < phases.size(); ++k) {
     all += phases[k].expected_seconds;
@@ -147,7 +147,7 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
   return at;
 }
 
-double PathPace::seconds_left(const Watch::Place& at, double now) {
+double PathPace::seconds_left(const Watch::Position& at, double now) {
   constexpr double least_advance = 0.02, least_s = 2;
   // another mesh, or the same on another path
   if (at.edges != last_.edges || at.t < last_.t) begun_ = at, begun_at_ = now;
@@ -193,7 +193,7 @@ Watch& Progress::next_phase() {
   if (watches_.size() > phases_.size())
     phases_.push_back(phases_.empty() ? Phase{"working"} : phases_.back());
   phase_began_ = seconds_now();
-  place_shown_at_ = phase_began_ - place_every_s + first_place_s;
+  line_shown_at_ = phase_began_ - line_every_s + first_line_s;
   if (interrupted_) watches_.back()->cancel();
   return *watches_.back();
 }
@@ -233,7 +233,7 @@ void Progress::stop_if_interrupted() {
 void Progress::show_now() {
   const auto current = watches_.size() - 1;
   const auto at =
-      standing(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
+      progress_of(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
   const std::string label = phases_[current].label + path_text(*watches_.back(), pace_);
   if (show_ == Show::bar) {
     std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
@@ -244,9 +244,9 @@ void Progress::show_now() {
     std::fprintf(stderr, "%d %%  %s%s\n", tenth * 10, label.c_str(), left_text(at).c_str());
     tenth_shown_ = tenth;
   } else if (show_ == Show::lines && label != phases_[current].label &&
-             seconds_now() - place_shown_at_ > place_every_s) {
+             seconds_now() - line_shown_at_ > line_every_s) {
     std::fprintf(stderr, "%s\n", label.c_str());
-    place_shown_at_ = seconds_now();
+    line_shown_at_ = seconds_now();
   }
 }
 

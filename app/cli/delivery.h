@@ -35,18 +35,18 @@ struct ProgressState {
 
 /// Progress of work in `phases`: `current` is `fraction` done after `elapsed` seconds. Later phases
 /// are scaled by the ratio of the actual to the expected time of the current one.
-ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
-                       double elapsed);
+ProgressState progress_of(const std::vector<Phase>& phases, std::size_t current, double fraction,
+                          double elapsed);
 
 /// Speed at which a path is followed on its current mesh.
 class PathPace {
  public:
   /// Seconds to the end of the path, parameter 1; NaN while too little is done for an estimate. It
   /// starts again on another mesh and where the parameter decreases.
-  double seconds_left(const Watch::Place& at, double now);
+  double seconds_left(const Watch::Position& at, double now);
 
  private:
-  Watch::Place begun_, last_;
+  Watch::Position begun_, last_;
   double begun_at_ = 0;
 };
 
@@ -54,7 +54,7 @@ class PathPace {
 std::string time_text(double seconds);
 
 /// "[======>     ]  52 %  rendering, 0:31 left"
-std::string bar_text(const ProgressState& standing, const std::string& label, int width);
+std::string bar_text(const ProgressState& state, const std::string& label, int width);
 
 /// Watches phases from a thread of its own: shows progress on stderr (a bar on a terminal, a line a
 /// tenth elsewhere), and passes an interrupt on to the current phase's Watch. It ends the program
@@ -90,7 +90,7 @@ class Progress {
   double phase_began_ = 0, interrupted_at_ = 0;  // seconds_now()
   bool interrupted_ = false;
   int tenth_shown_ = 0;
-  double place_shown_at_ = 0;  // seconds_now()
+  double line_shown_at_ = 0;  // seconds_now()
   PathPace pace_;
   bool bar_open_ = false;
   std::thread thread_;

@@ -176,8 +176,9 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
       if (requested(run)) found.push_back(&run);
     return found;
   };
-  if (const Runs beside = those(drawn_side_by_side); !beside.empty())
-    return draw_side_by_side(beside, title, renderer, stem.parent_path(), progress.next_phase());
+  if (const Runs side_by_side = those(drawn_side_by_side); !side_by_side.empty())
+    return draw_side_by_side(side_by_side, title, renderer, stem.parent_path(),
+                             progress.next_phase());
   const Runs stills = those(is_still);
   if (stills.empty()) return {};
   if (stills.front()->preset.page.kind != preset::PageKind::none)
@@ -260,8 +261,9 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
 
 Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs::path& stem,
                       render::Renderer& renderer, const fs::path& folder, Progress& progress) {
-  const bool all_beside = std::ranges::all_of(runs, drawn_side_by_side);
-  const auto bars = all_beside ? std::vector<SharedColourBar>(runs.size()) : shared_bars(runs);
+  const bool all_side_by_side = std::ranges::all_of(runs, drawn_side_by_side);
+  const auto bars =
+      all_side_by_side ? std::vector<SharedColourBar>(runs.size()) : shared_bars(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Run& run = runs[k];
     const fs::path to = folder_of(folder, run.name);
@@ -308,7 +310,7 @@ Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
       if (one.kind == line) part.lines.push_back(one.points);
     parts.push_back(std::move(part));
   }
-  parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
+  parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.pose.apex});
   fs::path stem = folder;
   stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
   if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));

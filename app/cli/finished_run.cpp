@@ -27,7 +27,7 @@ tl::unexpected<Error> no_run(const fs::path& folder, const std::string& because)
   return invalid("'{}' is no run: {}", folder.string(), because);
 }
 
-bool holds_run(const fs::path& folder) {
+bool contains_run(const fs::path& folder) {
   std::error_code error;
   return fs::exists(folder / "summary.json", error) || record::preset_of_journal(folder);
 }
@@ -37,7 +37,7 @@ std::vector<std::string> cases_begun(const fs::path& folder) {
   std::vector<std::string> names;
   if (const auto presets = preset::read_preset_file(folder / "preset.toml"))
     for (const auto& one : presets->cases)
-      if (holds_run(folder / one.name)) names.push_back(one.name);
+      if (contains_run(folder / one.name)) names.push_back(one.name);
   return names;
 }
 
@@ -297,7 +297,7 @@ Result<std::vector<Run>> read_runs(const fs::path& folder,
   std::vector<Run> runs;
   for (const auto& name : *names) {
     // the last of several interrupted cases may have no frame yet
-    if (!name.empty() && !holds_run(folder / name)) continue;
+    if (!name.empty() && !contains_run(folder / name)) continue;
     TRY(run, read_run(folder_of(folder, name), name, overrides, no_checksum));
     runs.push_back(std::move(*run));
   }

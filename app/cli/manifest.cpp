@@ -69,11 +69,11 @@ std::optional<LegacyRunFiles> named(const fs::path& folder) {
   };
   const auto text = read_file(folder / "summary.json", largest_text);
   const auto json = text ? parsed(*text) : Json();
-  const auto holds = [&](const char* key) { return json.is_object() && json.contains(key); };
-  if (holds("preset") && json["preset"].is_string() &&
-      (holds("negative_pivots") || holds("cases") || holds("chart"))) {
+  const auto has = [&](const char* key) { return json.is_object() && json.contains(key); };
+  if (has("preset") && json["preset"].is_string() &&
+      (has("negative_pivots") || has("cases") || has("chart"))) {
     name_pictures(json["preset"].get<std::string>());
-    if (holds("cases") && json["cases"].is_array())
+    if (has("cases") && json["cases"].is_array())
       for (const auto& one : json["cases"])
         for (const char* key : {"name", "preset"})
           if (one.is_object() && one.contains(key) && one[key].is_string())

@@ -172,11 +172,11 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
 
 std::string state_text(const record::Summary& at) {
   if (!at.solved) return "the net itself, no equilibrium";
-  constexpr double worth_telling = 0.01, least_mJ = 1e-6;
+  constexpr double worth_reporting = 0.01, least_mJ = 1e-6;
   const double bend = at.energies[Term::bend], all = at.energies.total();
   return fmt::format(
       "bend energy {}{}, {}, residual {:.1e} N", record::with_error(bend, at.energy_error_mJ, "mJ"),
-      std::abs(all - bend) > worth_telling * std::max(std::abs(bend), least_mJ)
+      std::abs(all - bend) > worth_reporting * std::max(std::abs(bend), least_mJ)
           ? " of " + record::with_error(all, at.energy_error_mJ, "mJ") + " in all"
           : "",
       at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N);
@@ -210,14 +210,14 @@ void print_forces(const record::Summary& at, const record::Layout& layout) {
 /// Prints the largest stress; for rods without a strength the largest bending strain, if no limit
 /// for it is set.
 void print_strength(const record::Summary& at, const preset::Limits& limits) {
-  constexpr double worth_telling = 0.01;
+  constexpr double worth_reporting = 0.01;
   if (std::isfinite(at.utilisation))
     return fmt::print("\n  {}: {:.4g} MPa in a fibre of {}",
                       at.utilisation > 1
                           ? at.breaking()
                           : fmt::format("stress at most {:.3g} of the strength", at.utilisation),
                       at.largest_stress_MPa, at.stress_at);
-  if (limits.max_bending_strain > 0 || !(at.largest_bending_strain >= worth_telling)) return;
+  if (limits.max_bending_strain > 0 || !(at.largest_bending_strain >= worth_reporting)) return;
   fmt::print(
       "\n  bending strains a rod by {:.2g} % ({}): most materials do not bear 1 %, superelastic "
       "wire bears some 6 %; [limits] max_bending_strain ends the path there",

@@ -53,10 +53,11 @@ std::string error_with_unit(double value, const char* unit) {
   return (value < 1 ? digit : fmt::format("{:.0f}", std::stod(digit))) + " " + unit;
 }
 
-/// The components of a force; those below 1e-9 `beside` are round-off and written as 0.
-std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
+/// The components of a force; those below 1e-9 `reference` are round-off and written as 0.
+std::vector<std::string> numbers(const Eigen::Vector3d& force, double reference) {
   std::vector<std::string> texts;
-  for (const double one : force) texts.push_back(number(std::abs(one) < 1e-9 * beside ? 0 : one));
+  for (const double one : force)
+    texts.push_back(number(std::abs(one) < 1e-9 * reference ? 0 : one));
   return texts;
 }
 

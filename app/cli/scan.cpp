@@ -237,7 +237,7 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
     // twice, since with the first height other tops may belong to the joints
     for (int turn = 0; turn < 2 && laid; ++turn) {
       // no top is below its joint, though a fit of few joints may give that
-      cylinder.height_mm = std::max(0.0, cylinder.height_mm + study::beyond_height(*laid, form));
+      cylinder.height_mm = std::max(0.0, cylinder.height_mm + study::excess_height(*laid, form));
       laid = study::register_points(scan.clusters, form, cylinder);
     }
     const bool shown = laid && study::scan_matches(*laid, scan.tolerance_mm);

@@ -148,8 +148,8 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
       return render::Stage(alone.layout, render::summarise_run(alone), wide, stage.colour_bar());
     };
     wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
-    const render::Stage beside = staged();
-    TRY_DO(add_state(page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
+    const render::Stage wide_stage = staged();
+    TRY_DO(add_state(page, *dome, wide_stage, wide_stage.drawing(alone.frames.front()), "A4",
                      fmt::format("{:.2f} mJ", dome->row().energy_mJ()),
                      {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
   }
@@ -191,10 +191,10 @@ void add_foot(Page& page, const preset::Preset& preset, const std::string& dome)
 /// Adds panels C: a state of each class from above, each as large as its box.
 void add_maps(Page& page, const Runs& records) {
   const double width = maps.width / 2, height = maps.height / 2;
-  int place = 0;
+  int index = 0;
   for (const StateClass kind : {StateClass::i, StateClass::ii, StateClass::iii, StateClass::iv}) {
-    const Box box{maps.x + width * (place % 2), maps.y + height * (place / 2), width, height};
-    const std::string letter = "C" + std::to_string(++place);
+    const Box box{maps.x + width * (index % 2), maps.y + height * (index / 2), width, height};
+    const std::string letter = "C" + std::to_string(++index);
     const auto found = lowest_of(kind, records);
     if (!found) {
       page.add_empty(letter, box, "no state " + std::string(word_of(kind)));

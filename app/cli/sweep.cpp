@@ -152,7 +152,7 @@ Result<std::string> write_laws(const SweepJob& work, const record::SweepTable& t
   for (const auto& name : plots_of(work.grid)) {
     std::vector<record::PowerLaw> laws;
     for (const auto& run : runs_of(work.presets))
-      if (auto law = record::power_law(table, run.name, name); law && law->holds())
+      if (auto law = record::power_law(table, run.name, name); law && law->is_confirmed())
         laws.push_back(std::move(*law));
     for (const record::PowerLaw& law : laws) {
       text += fmt::format("\n  {}{}{}", law.keys.front().case_name,

@@ -67,7 +67,7 @@ py::tuple packed(const State& of) {
     pushed.append(py::make_tuple(one.joint, one.direction.x(), one.direction.y(), one.direction.z(),
                                  one.at_times));
   return py::make_tuple(of.preset->name, preset::to_toml(*of.preset), py::bytes(bytes),
-                        packed(of.certificate), of.held, of.directions, pushed);
+                        packed(of.certificate), of.constrained, of.directions, pushed);
 }
 
 void unpack(const py::tuple& from, State& to) {
@@ -82,7 +82,7 @@ void unpack(const py::tuple& from, State& to) {
   to.layout = std::make_shared<const record::Layout>(journal.trajectory.layout);
   to.frame = journal.trajectory.frames.front();
   unpack(from[3].cast<py::tuple>(), to.certificate);
-  to.held = from[4].cast<decltype(to.held)>();
+  to.constrained = from[4].cast<decltype(to.constrained)>();
   to.directions = from[5].cast<decltype(to.directions)>();
   for (const py::handle one : from[6].cast<py::list>()) {
     const auto [joint, x, y, z, at_times] =

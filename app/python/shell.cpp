@@ -139,17 +139,17 @@ Result<State> Shell::look() {
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
   session_->put_push(frame);
   state.certificate = session_->certificate();
-  for (const Constraint& hold : session_->constraints()) {
-    const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];
-    state.held.push_back({joint.i, joint.j});
-    const bool one = hold.directions.cols() == 1;
+  for (const Constraint& constraint : session_->constraints()) {
+    const FootprintJoint& joint = scene_->footprint.joints[std::size_t(constraint.node)];
+    state.constrained.push_back({joint.i, joint.j});
+    const bool one = constraint.directions.cols() == 1;
     state.directions.push_back({NAN, NAN, NAN});
     for (int c = 0; c < 3 && one; ++c)
-      state.directions.back()[std::size_t(c)] = hold.directions(c, 0);
-    const auto taken = session_->constraint_origins.find(hold.node);
+      state.directions.back()[std::size_t(c)] = constraint.directions(c, 0);
+    const auto taken = session_->constraint_origins.find(constraint.node);
     if (taken == session_->constraint_origins.end()) continue;
-    const Eigen::Vector3d moved = session_->nodes().col(hold.node) - taken->second;
-    if (moved.norm() > nearest_mm) state.pushed.push_back({hold.node, moved.normalized()});
+    const Eigen::Vector3d moved = session_->nodes().col(constraint.node) - taken->second;
+    if (moved.norm() > nearest_mm) state.pushed.push_back({constraint.node, moved.normalized()});
   }
   return state;
 }

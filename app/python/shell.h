@@ -18,7 +18,7 @@ struct State {
   std::shared_ptr<const record::Layout> layout;
   record::Frame frame;
   Certificate certificate;
-  std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the constrained joints
+  std::vector<std::array<int, 2>> constrained = {};  ///< (i, j) of the constrained joints
   /// For each of them the unit vector along which it is constrained; NaN: in all directions.
   std::vector<std::array<double, 3>> directions = {};
   std::vector<record::LoadedJoint> pushed = {};  ///< those that were moved, which pictures mark

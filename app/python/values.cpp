@@ -212,9 +212,9 @@ void add_state(py::module_& module) {
       .def_property_readonly(
           "held",
           [](const State& of) {
-            std::vector<std::pair<int, int>> held;
-            for (const auto& [i, j] : of.held) held.emplace_back(i, j);
-            return held;
+            std::vector<std::pair<int, int>> indices;
+            for (const auto& [i, j] : of.constrained) indices.emplace_back(i, j);
+            return indices;
           },
           "Indices (i, j) of the prescribed joints of a session.")
       .def_property_readonly(

@@ -79,7 +79,7 @@ class Picker {
   void release(double x, double y);
   void wheel(double steps, double x, double y);
 
-  bool dragging() const { return holding_; }
+  bool dragging() const { return pressed_; }
 
  private:
   void find(double x, double y);
@@ -91,7 +91,7 @@ class Picker {
 
   ViewerState& viewer_;
   int joint_ = -1, edge_ = -1;
-  bool holding_ = false, moved_ = false;
+  bool pressed_ = false, moved_ = false;
   Gesture gesture_ = Gesture::orbit;
   double begin_x_ = 0, begin_y_ = 0, last_x_ = 0, last_y_ = 0;
   Eigen::Vector2d press_offset_ =

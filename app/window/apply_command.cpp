@@ -61,8 +61,9 @@ bool continues(const preset::Step& before, const preset::Step& step) {
 
 /// Does one step, as a run of a preset does it, and stores it.
 Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
-  const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
-  if (holds)
+  const bool constrains =
+      step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
+  if (constrains)
     if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
       // the position in the view, which the coarse mesh of a drag has not changed yet
       session_->constraint_origins.emplace(*joint,
@@ -224,7 +225,7 @@ Result<void> EditSession::act(const Release& command, const Watch& watch) {
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();
-    for (const Constraint& hold : session_->constraints()) joints.push_back(hold.node);
+    for (const Constraint& constraint : session_->constraints()) joints.push_back(constraint.node);
   }
   for (const int k : joints)
     TRY_DO(do_step(step_of(preset::StepKind::release, now_.scene->footprint.joints[std::size_t(k)]),

@@ -54,7 +54,7 @@ std::string why_not_designed(const ShellView& shell) {
     return "this shell was not designed on a net, so there is no surface that it could meet";
   if (const auto needs = key_errors(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
     return "only rods that stretch and bend can be designed: " + needs.front().what;
-  if (!shell.held.empty()) return "a joint is fixed: release all joints first";
+  if (!shell.constrained.empty()) return "a joint is fixed: release all joints first";
   if (!shell.steps.empty() || shell.rods_changed_late)
     return "this shell was moved: undo those steps first (Undo)";
   return "";

@@ -247,14 +247,14 @@ Result<void> EditSession::change_rods(const preset::Preset& preset, const Watch&
   TRY(scene, shared_scene_of(changed));
   if ((*scene)->rod_model != now_.scene->rod_model) return rebuild_shell(preset, watch);
   const Checkpoint before = session_->save();
-  const bool within_limits = !session_->limit_exceeded();
+  const bool within_limits = !session_->exceeded_limit();
   TRY(report, session_->set_rods((*scene)->rods, watch));
   TRY_DO(note_events(*report));
   // diameters and strengths are those of the scene that a session has
   const Checkpoint state = session_->save();
   TRY(session, Simulation::open(*scene, state.shell->plan()));
   session->restore(state);
-  if (const auto limit = session->limit_exceeded(); limit && within_limits) {
+  if (const auto limit = session->exceeded_limit(); limit && within_limits) {
     session_->restore(before);
     return invalid("these rods would be past a limit in this state ({}): move the shell back first",
                    text_of_events({*limit}));

@@ -32,7 +32,7 @@ class ScratchFile {
   /// Appends bytes and returns their range; nothing if they cannot be written.
   std::optional<Range> put(std::string_view bytes);
   /// Reads a range of bytes; empty if it cannot be read.
-  std::string take(const Range& place) const;
+  std::string take(const Range& range) const;
 
  private:
   struct Close {
@@ -60,7 +60,9 @@ class EditSession {
   /// The current state of the shell.
   const ShellView& shell() const { return view_; }
   /// Sets a function that is called during a command with each state that may be shown.
-  void tell(std::function<void(const ShellView&)> message) { listener_ = std::move(message); }
+  void set_listener(std::function<void(const ShellView&)> message) {
+    listener_ = std::move(message);
+  }
 
  private:
   /// What a command can change in addition to the state of the rods.

@@ -60,7 +60,7 @@ std::string date_text(const fs::file_time_type& time) {
 }
 
 /// The typed path; a name without a folder is in the folder that is shown.
-fs::path place_of(const FileRequest& request) {
+fs::path path_of(const FileRequest& request) {
   const fs::path path = request.path;
   std::error_code error;
   return path.has_parent_path() || fs::exists(path, error) ? path : request.folder / path;
@@ -69,7 +69,7 @@ fs::path place_of(const FileRequest& request) {
 /// The filter for the list of files: the typed name if no such file exists, else empty.
 std::string filter_of(const FileRequest& request) {
   std::error_code error;
-  if (!is_read(request.use) || fs::exists(place_of(request), error)) return "";
+  if (!is_read(request.use) || fs::exists(path_of(request), error)) return "";
   return fs::path(request.path).filename().string();
 }
 
@@ -238,10 +238,10 @@ bool FilePrompt::complete(FileRequest& request) const {
       entries_, [&](const Entry& entry) { return contains_words(entry.name, filter); });
   if (!filter.empty() && first != entries_.end())
     request.path = (fs::path(request.folder) / first->name).string();
-  const fs::path place = place_of(request);
+  const fs::path path = path_of(request);
   std::error_code error;
-  if (!fs::is_directory(place, error) || is_run(place) || !place.has_filename()) return true;
-  request.path = (place / "").string();
+  if (!fs::is_directory(path, error) || is_run(path) || !path.has_filename()) return true;
+  request.path = (path / "").string();
   return false;
 }
 

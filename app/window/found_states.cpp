@@ -51,10 +51,10 @@ bool nearly(double a, double b, double within) {
 }  // namespace
 
 std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>& events, int joint,
-                               const std::function<double(double)>& place) {
+                               const std::function<double(double)>& position) {
   std::vector<PathMark> marks;
   const auto add = [&](double from, double to, bool unstable, std::string what) {
-    const auto [low, high] = std::minmax({place(from), place(to)});
+    const auto [low, high] = std::minmax({position(from), position(to)});
     marks.push_back({low, high, joint, unstable, std::move(what)});
   };
   const auto& steps = path.load_steps;
@@ -101,7 +101,7 @@ std::string text_of_events(const std::vector<Event>& events) {
   return message;
 }
 
-std::string text_of_place(const PathMark& mark, const std::function<double(double)>& shown) {
+std::string text_of_range(const PathMark& mark, const std::function<double(double)>& shown) {
   const double a = shown(mark.from), b = shown(mark.to);
   return mark.unstable ? fmt::format("{:.5g} to {:.5g}", std::max(a, b), std::min(a, b))
                        : fmt::format("{:.5g}", a);
@@ -119,10 +119,10 @@ double EditSession::pushed_mm(const preset::Step& step) const {
 
 /// "Rₐ = 124.2 to 122.9 mm", "2.1 mm".
 std::string EditSession::position_text(const PathMark& mark) const {
-  if (mark.joint >= 0) return text_of_place(mark, [](double mm) { return mm; }) + " mm";
+  if (mark.joint >= 0) return text_of_range(mark, [](double mm) { return mm; }) + " mm";
   if (now_.preset.footprint.kind != preset::FootprintKind::circle)
-    return "progress " + text_of_place(mark, [](double at) { return at; });
-  return "Rₐ = " + text_of_place(mark, [&](double at) { return now_.scene->radius_at(at); }) +
+    return "progress " + text_of_range(mark, [](double at) { return at; });
+  return "Rₐ = " + text_of_range(mark, [&](double at) { return now_.scene->radius_at(at); }) +
          " mm";
 }
 
@@ -150,10 +150,10 @@ std::string EditSession::note_path(const preset::Step& step, const simulate::Ste
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
   const double grew_mm = pushed_mm(step) - began_mm,
                end = std::max(1e-12, path.load_steps.back().point.t);
-  const auto place = [&](double t) {
+  const auto position = [&](double t) {
     return moves ? progress_at(t) : began_mm + grew_mm * t / end;
   };
-  const auto marks = marks_of(path, report.events, pushes && joint ? *joint : -1, place);
+  const auto marks = marks_of(path, report.events, pushes && joint ? *joint : -1, position);
   add_marks(now_.marks, marks);
   for (const PathMark& mark : marks)
     if (mark.unstable && report.certificate.stable() && !snapped)

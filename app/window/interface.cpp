@@ -123,16 +123,16 @@ Result<void> Interface::resize(int width, int height, double density) {
 
 Result<Eigen::Vector2d> Interface::pixel_of(const InputEvent& event) const {
   if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
-  const Eigen::Vector2d beside(event.x, event.y);
+  const Eigen::Vector2d offset(event.x, event.y);
   int i = 0, j = 0;
   if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
     for (const record::Joint& joint : viewer_.shell->layout->joints)
       if (joint.i == i && joint.j == j)
-        return Eigen::Vector2d(in_view(viewer_, view_, joint.node) + beside);
+        return Eigen::Vector2d(in_view(viewer_, view_, joint.node) + offset);
   if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
       i < int(viewer_.shell->layout->edge_points.size()))
     return Eigen::Vector2d(
-        in_view(viewer_, view_, viewer_.shell->layout->edge_points[std::size_t(i)]) + beside);
+        in_view(viewer_, view_, viewer_.shell->layout->edge_points[std::size_t(i)]) + offset);
   std::string name = event.text;
   std::replace(name.begin(), name.end(), '_', ' ');
   for (const std::string& requested : {event.text, name})
@@ -147,9 +147,9 @@ Result<void> Interface::take(const InputEvent& event) {
   InputEvent taken = event;
   if (event.kind == InputKind::size) return resize(int(event.x), int(event.y), event.density);
   if (event.kind == InputKind::mouse) {
-    TRY(place, pixel_of(event));
-    taken.x = place->x();
-    taken.y = place->y();
+    TRY(pixel, pixel_of(event));
+    taken.x = pixel->x();
+    taken.y = pixel->y();
     taken.text.clear();
   }
   if (event.kind == InputKind::act && !find_action(event.text))

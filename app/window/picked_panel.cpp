@@ -65,8 +65,8 @@ void push_depth(const Panel& panel, int joint) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
   Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
-  for (const ConstrainedJoint& held : shell.held)
-    if (held.joint == joint && !held.along.isZero(0)) along = held.along, from -= held.moved_mm;
+  for (const ConstrainedJoint& one : shell.constrained)
+    if (one.joint == joint && !one.along.isZero(0)) along = one.along, from -= one.moved_mm;
   float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
   if (std::abs(depth) < 5e-4f) depth = 0;
   const float most = float(0.5 * shell.layout->length_scale_mm);

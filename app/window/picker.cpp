@@ -71,24 +71,24 @@ bool Picker::is_covered(int node, double by_mm) const {
 }
 
 void Picker::hover(double x, double y) {
-  if (holding_) return;
+  if (pressed_) return;
   find(x, y);
   viewer_.joint_under = joint_;
   viewer_.edge_under = edge_;
 }
 
 void Picker::leave() {
-  if (holding_) return;
+  if (pressed_) return;
   joint_ = edge_ = viewer_.joint_under = viewer_.edge_under = -1;
 }
 
 void Picker::press(Button button, bool shift, double x, double y) {
-  if (holding_) return;
+  if (pressed_) return;
   find(x, y);
   const Over over = joint_ >= 0 ? Over::joint : edge_ >= 0 ? Over::edge_point : Over::nothing;
   gesture_ = gesture_of(button, over, shift);
   if (gesture_ == Gesture::push && viewer_.push_freely) gesture_ = Gesture::pull_freely;
-  holding_ = true;
+  pressed_ = true;
   moved_ = false;
   begin_x_ = last_x_ = x;
   begin_y_ = last_y_ = y;
@@ -97,8 +97,8 @@ void Picker::press(Button button, bool shift, double x, double y) {
     press_offset_ = Eigen::Vector2d(x, y) - pixel_of(joint_);
     along_ = viewer_.shell->normals.col(joint_);
     // a constrained joint is pushed along the direction of its constraint
-    for (const ConstrainedJoint& held : viewer_.shell->held)
-      if (held.joint == joint_ && !held.along.isZero(0)) along_ = held.along;
+    for (const ConstrainedJoint& one : viewer_.shell->constrained)
+      if (one.joint == joint_ && !one.along.isZero(0)) along_ = one.along;
   }
   if (edge_ >= 0)
     pushed_from_ =
@@ -114,7 +114,7 @@ void Picker::check_dragged() {
 }
 
 void Picker::drag(double x, double y) {
-  if (!holding_) return;
+  if (!pressed_) return;
   if (viewer_.shell->any()) check_dragged();
   const double dx = x - last_x_, dy = y - last_y_, from_x = x - begin_x_, from_y = y - begin_y_;
   if (!moved_ && std::hypot(from_x, from_y) < click_px) return;
@@ -156,9 +156,9 @@ void Picker::drag(double x, double y) {
 }
 
 void Picker::release(double x, double y) {
-  if (!holding_) return;
+  if (!pressed_) return;
   if (viewer_.shell->any()) check_dragged();
-  holding_ = false;
+  pressed_ = false;
   const bool at_shell = gesture_ == Gesture::push || gesture_ == Gesture::pull_freely ||
                         gesture_ == Gesture::drag_edge;
   if (moved_ && at_shell) viewer_.end_drag();

@@ -230,7 +230,7 @@ std::span<const PlotPoint> last_points(const ViewerState& viewer) {
 /// Adds the marks of the paths to a curve over the position on the path.
 void put_marks(const ShellView& shell, const Quantity& over, Curve& curve) {
   const std::string_view name = over.name;
-  const int pushed = shell.held.empty() ? -1 : shell.held.back().joint;
+  const int pushed = shell.constrained.empty() ? -1 : shell.constrained.back().joint;
   for (const PathMark& mark : shell.marks) {
     double from = mark.from, to = mark.to;
     if (mark.joint < 0 && name == "boundary_radius_mm")

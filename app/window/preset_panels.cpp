@@ -56,7 +56,7 @@ struct Control {
     if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high), text.c_str(),
                           ImGuiSliderFlags_AlwaysClamp))
       return false;
-    if (!range.holds(double(shown))) {
+    if (!range.contains(double(shown))) {
       viewer.say(fmt::format("{}: expected {}", name_of(field), allowed(field)), true);
       return false;
     }

@@ -275,7 +275,7 @@ void ViewerState::compare_with_net() {
 }
 
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
-  show_side_by_side(show.beside && other);
+  show_side_by_side(show.side_by_side && other);
   show.other = std::move(other);
   // the colours may show the distance from it
   if (show.colour_by == ColourBy::displacement) show.scale = scale_of(*shell, show);
@@ -283,8 +283,8 @@ void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
 
 void ViewerState::show_side_by_side(bool on) {
   if (on && !show.other) return say("nothing is compared: File > Compare with…", true);
-  if (on == show.beside) return;
-  show.beside = on;
+  if (on == show.side_by_side) return;
+  show.side_by_side = on;
   view.width *= on ? 0.5 : 2;
   fit_view();
   if (on && range_of == RangeOf::run)

@@ -118,13 +118,13 @@ void put_colours(const ShellView& shell, const Show& show, render::Drawing& draw
 void put_forces(const ShellView& shell, const Show& show, double thin_mm,
                 render::Drawing& drawing) {
   double most = 0;
-  for (const ConstrainedJoint& held : shell.held) most = std::max(most, held.force_N.norm());
-  for (const ConstrainedJoint& held : shell.held) {
-    const Eigen::Vector3d at = node_position(shell, show, held.joint);
+  for (const ConstrainedJoint& one : shell.constrained) most = std::max(most, one.force_N.norm());
+  for (const ConstrainedJoint& one : shell.constrained) {
+    const Eigen::Vector3d at = node_position(shell, show, one.joint);
     drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), constraint_yellow});
-    const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
+    const double length = 0.35 * shell.layout->length_scale_mm * one.force_N.norm() / most;
     if (!(length > 3 * thin_mm)) continue;
-    const Eigen::Vector3d arrow = length * held.force_N.normalized();
+    const Eigen::Vector3d arrow = length * one.force_N.normalized();
     drawing.arrows.push_back(
         {at - arrow, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
   }
@@ -134,12 +134,12 @@ constexpr double degrees_a_pixel = 0.4, zoom_a_step = 0.88;
 constexpr double least_extent_mm = 0.1, most_extent_mm = 1e5;
 constexpr double steep_px = 0.15;  // a unit vector with a shorter picture is seen along itself
 
-/// The picture of a unit displacement at `place`, pixels to the right and down per millimetre.
+/// The picture of a unit displacement at `position`, pixels to the right and down per millimetre.
 Eigen::Vector2d seen_px(const render::Camera& camera, const PictureSize& size,
-                        const Eigen::Vector3d& place, const Eigen::Vector3d& unit) {
+                        const Eigen::Vector3d& position, const Eigen::Vector3d& unit) {
   const int w = int(size.width), h = int(size.height);
-  return render::to_pixel(camera, w, h, place + 0.5 * unit) -
-         render::to_pixel(camera, w, h, place - 0.5 * unit);
+  return render::to_pixel(camera, w, h, position + 0.5 * unit) -
+         render::to_pixel(camera, w, h, position - 0.5 * unit);
 }
 
 }  // namespace
@@ -166,8 +166,8 @@ render::ColourBar bar_of(const ShellView& shell, const Show& show) {
   bar.ends = true;
   const Eigen::VectorXd values = values_of(shell, show);
   const double slack = 1e-9 * (show.scale.high - show.scale.low);
-  bar.beyond_low = values.size() > 0 && values.minCoeff() < show.scale.low - slack;
-  bar.beyond_high = values.size() > 0 && values.maxCoeff() > show.scale.high + slack;
+  bar.below_scale = values.size() > 0 && values.minCoeff() < show.scale.low - slack;
+  bar.above_scale = values.size() > 0 && values.maxCoeff() > show.scale.high + slack;
   return bar;
 }
 const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meaning; }
@@ -263,10 +263,10 @@ std::string text_of_measure(const ShellView& shell, const std::vector<int>& join
 }
 
 Eigen::Vector3d node_position(const ShellView& shell, const Show& show, int node) {
-  Eigen::Vector3d place = shell.frame.nodes.col(node);
+  Eigen::Vector3d position = shell.frame.nodes.col(node);
   if (show.mode_mm != 0 && node < shell.soft_mode.cols())
-    place += show.mode_mm * shell.soft_mode.col(node);
-  return place;
+    position += show.mode_mm * shell.soft_mode.col(node);
+  return position;
 }
 
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm) {
@@ -294,7 +294,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   };
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
-  if (show.other && !show.beside)
+  if (show.other && !show.side_by_side)
     drawing.ghosts.push_back({show.other->seen->frame.nodes, show.other->seen->layout->rods,
                               0.7 * drawing.rod_diameter_mm, other_green});
   put_forces(shell, show, thin_mm, drawing);
@@ -365,17 +365,17 @@ void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd
 }
 
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
-                                 const Eigen::Vector3d& place, double right_px, double down_px) {
+                                 const Eigen::Vector3d& position, double right_px, double down_px) {
   const render::CameraAxes axes = render::camera_axes(camera);
-  const double mm_right = 1 / seen_px(camera, size, place, axes.right).norm();
-  const double mm_up = 1 / seen_px(camera, size, place, axes.up).norm();
+  const double mm_right = 1 / seen_px(camera, size, position, axes.right).norm();
+  const double mm_up = 1 / seen_px(camera, size, position, axes.up).norm();
   return mm_right * right_px * axes.right - mm_up * down_px * axes.up;
 }
 
 double dragged_along(const render::Camera& camera, const PictureSize& size,
-                     const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
+                     const Eigen::Vector3d& position, const Eigen::Vector3d& axis, double right_px,
                      double down_px) {
-  const Eigen::Vector2d px = seen_px(camera, size, place, axis);
+  const Eigen::Vector2d px = seen_px(camera, size, position, axis);
   const double scale = 1 / mm_per_pixel(camera, size);
   // if the camera looks along the axis, the mouse moves the point by going up and down
   if (px.norm() < steep_px * scale) return -down_px / scale;
@@ -393,10 +393,10 @@ double pushed_under(const render::Camera& camera, const PictureSize& size,
 }
 
 Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,
-                              const Eigen::Vector3d& place, double right_px, double down_px) {
+                              const Eigen::Vector3d& position, double right_px, double down_px) {
   Eigen::Matrix2d px;
-  px << seen_px(camera, size, place, Eigen::Vector3d::UnitX()),
-      seen_px(camera, size, place, Eigen::Vector3d::UnitY());
+  px << seen_px(camera, size, position, Eigen::Vector3d::UnitX()),
+      seen_px(camera, size, position, Eigen::Vector3d::UnitY());
   const double scale = 1 / mm_per_pixel(camera, size);
   if (std::abs(px.determinant()) < steep_px * scale * scale) {
     Eigen::Vector3d right = render::camera_axes(camera).right;

@@ -36,13 +36,13 @@ void look_from(render::Camera& camera, const render::ViewDirection& view);
 /// Moves the camera, without turning it, so that all points (3 x n, mm) are in the picture.
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points);
 
-/// The displacement of a point at `place`, mm, in the plane facing the camera, for a drag in
+/// The displacement of a point at `position`, mm, in the plane facing the camera, for a drag in
 /// pixels.
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
-                                 const Eigen::Vector3d& place, double right_px, double down_px);
+                                 const Eigen::Vector3d& position, double right_px, double down_px);
 /// The displacement along the unit vector `axis` only, mm, that follows a drag in pixels best.
 double dragged_along(const render::Camera& camera, const PictureSize& size,
-                     const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
+                     const Eigen::Vector3d& position, const Eigen::Vector3d& axis, double right_px,
                      double down_px);
 /// The distance from `from` along the unit vector `axis` to which a point at `at` must be pushed,
 /// so that its picture, now `off_px` from the cursor, gets to the cursor. Perpendicular to the axis
@@ -50,10 +50,10 @@ double dragged_along(const render::Camera& camera, const PictureSize& size,
 double pushed_under(const render::Camera& camera, const PictureSize& size,
                     const Eigen::Vector3d& from, const Eigen::Vector3d& axis,
                     const Eigen::Vector3d& at, const Eigen::Vector2d& off_px);
-/// The displacement in the horizontal plane through `place`; if the camera looks from the side,
+/// The displacement in the horizontal plane through `position`; if the camera looks from the side,
 /// only to the right or left of the picture.
 Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,
-                              const Eigen::Vector3d& place, double right_px, double down_px);
+                              const Eigen::Vector3d& position, double right_px, double down_px);
 
 using preset::ColourBy;
 
@@ -77,8 +77,8 @@ struct Show {
   double largest_load_N = 0;  ///< of all states since the shell was opened; it scales the arrows
   double mode_mm = 0;         ///< amplitude along the lowest mode
   std::shared_ptr<const OtherShell> other = {};  ///< drawn over it, or next to it; null: none
-  bool beside = false;                           ///< `other` is drawn next to the shell
-  int shells() const { return beside && other ? 2 : 1; }  ///< that are drawn side by side
+  bool side_by_side = false;                     ///< `other` is drawn next to the shell
+  int shells() const { return side_by_side && other ? 2 : 1; }  ///< that are drawn side by side
   bool operator==(const Show&) const = default;
 };
 

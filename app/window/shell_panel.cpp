@@ -91,7 +91,7 @@ std::string text_of_marks(const ShellView& shell) {
   for (const PathMark& mark : shell.marks)
     if (mark.joint < 0)
       text += fmt::format("\n{}: {}{}", mark.what, circle ? "Rₐ = " : "progress ",
-                          text_of_place(
+                          text_of_range(
                               mark, [&](double at) { return circle ? shell.radius_at(at) : at; })) +
               (circle ? " mm" : "");
   return text;
@@ -185,12 +185,12 @@ void dragged_edges(const Panel& panel) {
     panel.viewer.send_command(ResetEdgePoint{});
 }
 
-void held(const Panel& panel) {
+void constraints(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
   heading(panel, "Push");
   panel.tick("push_freely");
-  for (const ConstrainedJoint& one : shell.held) {
+  for (const ConstrainedJoint& one : shell.constrained) {
     const record::Joint& joint = shell.layout->joints[std::size_t(one.joint)];
     ImGui::Text("(%d, %d)  %.4f N  %.2f mm", joint.i, joint.j, one.force_N.norm(),
                 one.moved_mm.norm());
@@ -199,7 +199,7 @@ void held(const Panel& panel) {
       viewer.send_command(Release{one.joint});
   }
   dragged_edges(panel);
-  if (shell.held.empty() && shell.edges_dragged.empty())
+  if (shell.constrained.empty() && shell.edges_dragged.empty())
     ImGui::TextDisabled("drag a joint or an edge point");
   panel.tick("gravity");
   ImGui::SameLine();
@@ -347,7 +347,7 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     accuracy(panel);
     colours(panel);
     keep(panel);
-    held(panel);
+    constraints(panel);
     stability(panel);
     contacts(panel);
     picked_figures(panel);

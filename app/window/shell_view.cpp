@@ -60,11 +60,11 @@ PlotPoint plot_point_of(const ShellView& shell) {
                 .refined = shell.refined,
                 .stable = shell.stable(),
                 .coarse = !shell.refined && shell.meshes.size() < 2};
-  if (!shell.held.empty()) {
-    const ConstrainedJoint& held = shell.held.back();
-    now.joint = held.joint;
-    now.depth_mm = held.moved_mm.norm();
-    const double along = held.force_N.dot(held.moved_mm.normalized());
+  if (!shell.constrained.empty()) {
+    const ConstrainedJoint& joint = shell.constrained.back();
+    now.joint = joint.joint;
+    now.depth_mm = joint.moved_mm.norm();
+    const double along = joint.force_N.dot(joint.moved_mm.normalized());
     now.force_N = std::isfinite(along) ? along : 0;
   }
   return now;
@@ -114,19 +114,20 @@ void EditSession::update_view() {
     if (!session_->boundary.dragged.col(k).isZero(0))
       s.edges_dragged.push_back({int(k), session_->boundary.dragged.col(k).norm()});
   update_normals();
-  s.held.clear();
+  s.constrained.clear();
   const auto& origins = session_->constraint_origins;
   for (std::size_t k = 0; k < session_->constraints().size(); ++k) {
-    const Constraint& hold = session_->constraints()[k];
-    const Eigen::Vector3d from =
-        origins.contains(hold.node) ? origins.at(hold.node) : s.frame.nodes.col(hold.node);
+    const Constraint& constraint = session_->constraints()[k];
+    const Eigen::Vector3d from = origins.contains(constraint.node)
+                                     ? origins.at(constraint.node)
+                                     : s.frame.nodes.col(constraint.node);
     // displacements in free directions are not part of the depth
-    ConstrainedJoint held{hold.node, hold.part(session_->force(k)),
-                          hold.part(s.frame.nodes.col(hold.node) - from)};
-    if (hold.directions.cols() == 1) held.along = hold.directions.col(0);
+    ConstrainedJoint joint{constraint.node, constraint.part(session_->force(k)),
+                           constraint.part(s.frame.nodes.col(constraint.node) - from)};
+    if (constraint.directions.cols() == 1) joint.along = constraint.directions.col(0);
     // outwards, regardless of the direction of the push
-    if (held.along.dot(s.normals.col(hold.node)) < 0) held.along *= -1;
-    s.held.push_back(held);
+    if (joint.along.dot(s.normals.col(constraint.node)) < 0) joint.along *= -1;
+    s.constrained.push_back(joint);
   }
   update_symmetry();
   update_rods();

@@ -25,11 +25,11 @@ struct PathMark {
   std::string what = {};
 };
 
-/// The marks of a path, from the pivots of its load steps and from its events; `place` maps the
+/// The marks of a path, from the pivots of its load steps and from its events; `position` maps the
 /// path parameter to the position. An unstable interval ends at an event between the unstable and
 /// the stable load step; without such an event it ends at the last unstable step.
 std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>& events, int joint,
-                               const std::function<double(double)>& place);
+                               const std::function<double(double)>& position);
 
 /// Adds marks. Intervals of the same kind and joint that touch or overlap are merged, so that a
 /// path that is followed forward and back is marked once.
@@ -39,7 +39,7 @@ void add_marks(std::vector<PathMark>& marks, const std::vector<PathMark>& more);
 std::string text_of_events(const std::vector<Event>& events);
 
 /// "124.2 to 122.9" for an interval, one number for a position; `shown` converts positions.
-std::string text_of_place(const PathMark& mark, const std::function<double(double)>& shown);
+std::string text_of_range(const PathMark& mark, const std::function<double(double)>& shown);
 
 /// A constrained joint.
 struct ConstrainedJoint {
@@ -116,7 +116,7 @@ struct ShellView : ViewedState {
   double progress = 0;           ///< of the boundary; above 1: moved further than in the preset
   double least_progress = 0;     ///< the least one to which the boundary can be moved back
   std::string symmetry;          ///< "two diagonal mirrors"; empty during a drag
-  std::vector<ConstrainedJoint> held;
+  std::vector<ConstrainedJoint> constrained;
   double radius_end_mm = 0;  ///< of a circular boundary at the end of its motion
   std::vector<DraggedEdge> edges_dragged;
   Eigen::Matrix3Xd normals;      ///< one per joint: t_u x t_v

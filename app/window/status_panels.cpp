@@ -20,10 +20,10 @@ std::string text_of_step(const ShellView& shell) {
                  ? fmt::format("boundary to Rₐ = {:.4g} mm", shell.frame.boundary_radius_mm)
                  : fmt::format("boundary to progress {:.3g}", step.progress);
     case preset::StepKind::push:
-      return shell.held.empty()
-                 ? "pushed" + at
-                 : fmt::format("pushed{}: {:.3g} mm, {:.3g} N", at,
-                               shell.held.back().moved_mm.norm(), shell.held.back().force_N.norm());
+      return shell.constrained.empty() ? "pushed" + at
+                                       : fmt::format("pushed{}: {:.3g} mm, {:.3g} N", at,
+                                                     shell.constrained.back().moved_mm.norm(),
+                                                     shell.constrained.back().force_N.norm());
     case preset::StepKind::hold:
     case preset::StepKind::release:
     case preset::StepKind::load:
@@ -68,24 +68,24 @@ void ViewerState::recall(int state) {
 void ViewerState::go_to_loss() {
   if (shell->push.joint >= 0 && shell->preset.footprint.kind != preset::FootprintKind::circle)
     return say("the boundary of this shell stays: it is a push that is followed", true);
-  std::vector<double> places;
+  std::vector<double> losses;
   for (const PathMark& mark : shell->marks) {
     if (mark.joint >= 0 || !mark.unstable) continue;
     if (!shell->stable() && mark.from <= shell->progress && shell->progress <= mark.to)
       return say("the shell is on the part of its path that is not stable", true);
-    places.push_back(0.5 * (mark.from + mark.to));
+    losses.push_back(0.5 * (mark.from + mark.to));
   }
-  if (places.empty())
+  if (losses.empty())
     return say(shell->path_left.empty()
                    ? "every state computed on the boundary's path is stable"
                    : "the path on which stability is lost was left by " + shell->path_left +
                          ", and the one since then is stable; Undo goes back to it",
                true);
-  std::ranges::sort(places);
+  std::ranges::sort(losses);
   const auto next =
-      std::ranges::find_if(places, [&](double at) { return at > shell->progress + 1e-6; });
+      std::ranges::find_if(losses, [&](double at) { return at > shell->progress + 1e-6; });
   play(false);
-  post(Move{next == places.end() ? places.front() : *next}, false);
+  post(Move{next == losses.end() ? losses.front() : *next}, false);
 }
 
 void ViewerState::note_step() {

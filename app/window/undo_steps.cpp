@@ -19,10 +19,10 @@ std::optional<ScratchFile::Range> ScratchFile::put(std::string_view bytes) {
   return Range{std::exchange(end_, end_ + std::int64_t(bytes.size())), bytes.size()};
 }
 
-std::string ScratchFile::take(const Range& place) const {
-  std::string bytes(place.size, 0);
-  const bool read = file_ && ::fseeko(file_.get(), place.at, SEEK_SET) == 0 &&
-                    std::fread(bytes.data(), 1, place.size, file_.get()) == place.size;
+std::string ScratchFile::take(const Range& range) const {
+  std::string bytes(range.size, 0);
+  const bool read = file_ && ::fseeko(file_.get(), range.at, SEEK_SET) == 0 &&
+                    std::fread(bytes.data(), 1, range.size, file_.get()) == range.size;
   return read ? bytes : std::string();
 }
 

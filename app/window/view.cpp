@@ -91,7 +91,7 @@ Result<OtherShell> load_scan(const fs::path& file) {
   TRY(text, read_file(file));
   record::Layout scan;
   record::Frame frame;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> positions;
   std::map<std::pair<int, int>, int> nodes;
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
@@ -99,18 +99,19 @@ Result<OtherShell> load_scan(const fs::path& file) {
     double x = 0, y = 0, z = 0;
     if (std::sscanf(line.c_str(), "%d,%d,%lf,%lf,%lf", &joint.i, &joint.j, &x, &y, &z) != 5)
       continue;
-    joint.node = int(places.size());
+    joint.node = int(positions.size());
     nodes[{joint.i, joint.j}] = joint.node;
     scan.joints.push_back(joint);
-    places.emplace_back(x, y, z);
+    positions.emplace_back(x, y, z);
   }
-  if (places.empty()) return invalid("'{}' has no joints", file.string());
+  if (positions.empty()) return invalid("'{}' has no joints", file.string());
   for (const auto& [at, node] : nodes)
-    for (const auto& beside : {std::pair(at.first + 1, at.second), {at.first, at.second + 1}})
-      if (const auto other = nodes.find(beside); other != nodes.end())
+    for (const auto& neighbour : {std::pair(at.first + 1, at.second), {at.first, at.second + 1}})
+      if (const auto other = nodes.find(neighbour); other != nodes.end())
         scan.rods.push_back({node, other->second});
-  frame.nodes.resize(3, Eigen::Index(places.size()));
-  for (std::size_t k = 0; k < places.size(); ++k) frame.nodes.col(Eigen::Index(k)) = places[k];
+  frame.nodes.resize(3, Eigen::Index(positions.size()));
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    frame.nodes.col(Eigen::Index(k)) = positions[k];
   return OtherShell{file.parent_path().filename().string(), view_of(std::move(scan), frame, frame)};
 }
 
@@ -182,7 +183,7 @@ void print_bench(const BenchFigures& figures) {
 /// Prints the final state as a line of JSON, the same for the same recording on every machine.
 void print_state(const ViewerState& viewer) {
   const ShellView& sight = *viewer.shell;
-  const auto* held = sight.held.empty() ? nullptr : &sight.held.back();
+  const auto* last = sight.constrained.empty() ? nullptr : &sight.constrained.back();
   Json line{{"preset", sight.preset.name},
             {"progress", sight.progress},
             {"boundary_radius_mm", sight.frame.boundary_radius_mm},
@@ -192,9 +193,9 @@ void print_state(const ViewerState& viewer) {
             {"residual_N", sight.certificate.residual_N},
             {"negative_pivots", sight.certificate.negative_pivots},
             {"error_estimate_mm", sight.certificate.error_estimate_mm},
-            {"held", sight.held.size()},
-            {"force_N", held ? held->force_N.norm() : 0},
-            {"depth_mm", held ? held->moved_mm.norm() : 0},
+            {"held", sight.constrained.size()},
+            {"force_N", last ? last->force_N.norm() : 0},
+            {"depth_mm", last ? last->moved_mm.norm() : 0},
             {"gravity", viewer.gravity()},
             {"undo_steps", sight.undo_steps},
             {"redo_steps", sight.redo_steps}};

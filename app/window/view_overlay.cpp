@@ -52,7 +52,7 @@ class Overlay {
   void ring(int node, double points) {
     list_.AddCircle(point_of(node), panel_.px(points), mark_colour, 0, wide_);
   }
-  void label(const std::string& text, ImVec2 beside);
+  void label(const std::string& text, ImVec2 at);
   float draw_length(float x, float wide, const std::string& text, ImU32 colour, bool arrow);
 
   const Panel& panel_;
@@ -95,12 +95,12 @@ void Overlay::mark_under() {
 /// A text on a background next to a point; to its left if the legend is at its right, wrapped if
 /// the view is narrow.
 void Overlay::label(const std::string& text, ImVec2 at) {
-  const float beside = panel_.px(12), room = panel_.px(3),
+  const float gap = panel_.px(12), room = panel_.px(3),
               legend = float(view_.right()) - panel_.px(110);
-  const float most = std::max(panel_.px(120), legend - float(view_.x) - 2 * beside);
+  const float most = std::max(panel_.px(120), legend - float(view_.x) - 2 * gap);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
-  float left = at.x + beside;
-  if (left + size.x > legend) left = std::max(float(view_.x) + beside, at.x - beside - size.x);
+  float left = at.x + gap;
+  if (left + size.x > legend) left = std::max(float(view_.x) + gap, at.x - gap - size.x);
   const ImVec2 low{left, at.y - 1.4f * ImGui::GetTextLineHeight()};
   list_.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.85f), room);
@@ -110,9 +110,9 @@ void Overlay::label(const std::string& text, ImVec2 at) {
 
 /// Force and displacement next to each constrained joint.
 void Overlay::write_forces() {
-  for (const ConstrainedJoint& held : shell_.held)
-    label(fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm()),
-          point_of(held.joint));
+  for (const ConstrainedJoint& one : shell_.constrained)
+    label(fmt::format("{:.3g} N, {:.2f} mm", one.force_N.norm(), one.moved_mm.norm()),
+          point_of(one.joint));
 }
 
 /// Writes the measured distance of two joints, or the angle at the second of three.
@@ -133,11 +133,11 @@ void Overlay::write_measure() {
 /// Writes the name of the other shell (green, or at the right), and the distances of joints.
 void Overlay::write_other() {
   if (!viewer_.show.other) return;
-  const bool beside = viewer_.show.shells() > 1;
+  const bool side_by_side = viewer_.show.shells() > 1;
   const std::string text =
-      viewer_.show.other->name + (beside ? ": " : " (green): ") + viewer_.difference_text();
+      viewer_.show.other->name + (side_by_side ? ": " : " (green): ") + viewer_.difference_text();
   const float top = float(view_.y) + panel_.px(34), right = float(view_.right());
-  if (!beside) return label(text, {float(view_.x), top});
+  if (!side_by_side) return label(text, {float(view_.x), top});
   list_.AddLine({right, float(view_.y)}, {right, float(view_.bottom())},
                 ImGui::GetColorU32(ImGuiCol_Border));
   const render::Box left =

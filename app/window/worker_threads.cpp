@@ -41,7 +41,7 @@ std::optional<BackgroundTask::End> BackgroundTask::take_end() {
 }
 
 EngineThread::EngineThread() : shell_(std::make_shared<ShellView>()) {
-  session_.tell([this](const ShellView& shell) {
+  session_.set_listener([this](const ShellView& shell) {
     auto seen = std::make_shared<const ShellView>(shell);
     const std::lock_guard lock(mutex_);
     shell_ = std::move(seen);

@@ -29,13 +29,13 @@ std::size_t piece_at(const Knots& knots, double t) {
 template <class T>
 class SetForScope {
  public:
-  SetForScope(T& place, T value) : place_(place), before_(place) { place = value; }
-  ~SetForScope() { place_ = before_; }
+  SetForScope(T& variable, T value) : variable_(variable), before_(variable) { variable = value; }
+  ~SetForScope() { variable_ = before_; }
   SetForScope(const SetForScope&) = delete;
   SetForScope& operator=(const SetForScope&) = delete;
 
  private:
-  T& place_;
+  T& variable_;
   T before_;
 };
 

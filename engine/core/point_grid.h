@@ -16,15 +16,15 @@ class PointGrid {
 
   void add(int thing, const Eigen::Vector3d& p) { cells_[cell_of(p)].push_back(thing); }
 
-  /// Whether `holds` is true for a point in the 27 cubes around p. These contain all points that
+  /// Whether `applies` is true for a point in the 27 cubes around p. These contain all points that
   /// are nearer to p than the cubes' size, and some others.
-  template <class Holds>
-  bool any_near(const Eigen::Vector3d& p, const Holds& holds) const {
+  template <class Predicate>
+  bool any_near(const Eigen::Vector3d& p, const Predicate& applies) const {
     const BoxGrid::Cell middle = cell_of(p);
     for (int k = 0; k < 27; ++k) {
       const auto found =
           cells_.find({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
-      if (found != cells_.end() && std::ranges::any_of(found->second, holds)) return true;
+      if (found != cells_.end() && std::ranges::any_of(found->second, applies)) return true;
     }
     return false;
   }

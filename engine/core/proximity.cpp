@@ -66,9 +66,9 @@ BoxPlane::BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm) {
   box.resize(number.size());
   for (std::size_t k = 0; k < count; ++k) {
     if (cell[k] < 0) continue;
-    const auto place = std::size_t(next[std::size_t(cell[k])]++);
-    number[place] = int(k);
-    box[place] = boxes[k];
+    const auto index = std::size_t(next[std::size_t(cell[k])]++);
+    number[index] = int(k);
+    box[index] = boxes[k];
   }
 }
 
@@ -94,10 +94,11 @@ const std::vector<int>* BoxGrid::at(const Eigen::Vector3d& p) const {
 BoxGrid::Cell BoxGrid::cell_of(const Eigen::Vector3d& p) const {
   Cell cell;
   for (int k = 0; k < 3; ++k) {
-    const double place = std::floor(p[k] / size_);
+    const double coordinate = std::floor(p[k] / size_);
     // all points far away are in one cell
-    cell[std::size_t(k)] =
-        std::abs(place) < 1e15 ? std::int64_t(place) : std::int64_t(place > 0 ? 1e15 : -1e15);
+    cell[std::size_t(k)] = std::abs(coordinate) < 1e15
+                               ? std::int64_t(coordinate)
+                               : std::int64_t(coordinate > 0 ? 1e15 : -1e15);
   }
   return cell;
 }

@@ -51,10 +51,10 @@ void each_near_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double mm, co
       const int cell = row * plane.columns + column;
       const auto begin = [&](int c) { return plane.first[std::size_t(c)]; };
       // the remaining boxes of this cell, the next cell, and the three in the next row
-      const int beside = cell + (column + 1 < plane.columns ? 2 : 1);
+      const int next_end = cell + (column + 1 < plane.columns ? 2 : 1);
       const int above = cell + plane.columns;
       for (int k = begin(cell); k < begin(cell + 1); ++k) {
-        look(k, k + 1, begin(beside));
+        look(k, k + 1, begin(next_end));
         if (row + 1 < plane.rows)
           look(k, begin(column > 0 ? above - 1 : above),
                begin(column + 1 < plane.columns ? above + 2 : above + 1));

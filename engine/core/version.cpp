@@ -37,19 +37,19 @@ std::string identity_in(const char* notes, std::size_t size) {
 /// dl_iterate_phdr callback: 1 if the object contains this code.
 int look_into(dl_phdr_info* object, std::size_t, void* data) {
   auto& search = *static_cast<Search*>(data);
-  bool holds = false;
+  bool contains = false;
   for (int k = 0; k < object->dlpi_phnum; ++k) {
     const auto& part = object->dlpi_phdr[k];
     const std::uintptr_t from = object->dlpi_addr + part.p_vaddr;
-    holds |= part.p_type == PT_LOAD && search.code - from < part.p_memsz;
+    contains |= part.p_type == PT_LOAD && search.code - from < part.p_memsz;
   }
-  for (int k = 0; holds && k < object->dlpi_phnum && search.found.empty(); ++k) {
+  for (int k = 0; contains && k < object->dlpi_phnum && search.found.empty(); ++k) {
     const auto& part = object->dlpi_phdr[k];
     if (part.p_type == PT_NOTE)
       search.found = identity_in(reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr),
                                  part.p_memsz);
   }
-  return holds;
+  return contains;
 }
 
 }  // namespace

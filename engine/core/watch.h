@@ -21,15 +21,15 @@ class Watch {
   double progress() const noexcept { return progress_.load(std::memory_order_relaxed); }
 
   /// The current path parameter, and the edges per segment of the mesh that is solved.
-  struct Place {
+  struct Position {
     double t = 0;
     int edges = 0;  ///< 0: on no path yet
   };
-  void stand_at(double t, int edges) const noexcept {
+  void set_position(double t, int edges) const noexcept {
     t_.store(t, std::memory_order_relaxed);
     edges_.store(edges, std::memory_order_relaxed);
   }
-  Place place() const noexcept {
+  Position position() const noexcept {
     return {t_.load(std::memory_order_relaxed), edges_.load(std::memory_order_relaxed)};
   }
 

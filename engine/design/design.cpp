@@ -14,7 +14,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double same_place = 1e-4;  // in d: largest distance of symmetric positions
+constexpr double same_position = 1e-4;  // in d: largest distance of symmetric positions
 
 Eigen::Matrix2Xd uv_of_joints(const Scene& scene) {
   Eigen::Matrix2Xd uv(2, Eigen::Index(scene.footprint.joints.size()));
@@ -82,7 +82,7 @@ Result<DesignProblem> begin_design(const preset::Preset& preset, const Scene& sc
   TRY(fine, DesignShell::make(scene, certified_on, coarse->mesh(), coarse->model(), coarse->state(),
                               watch));
   const double spacing = scene.footprint.spacing;
-  const auto symmetries = symmetries_of(scene, coarse->joints(), same_place * spacing);
+  const auto symmetries = symmetries_of(scene, coarse->joints(), same_position * spacing);
   DesignVariables variables(scene, preset.inverse.vary, symmetries);
   if (variables.count() == 0) return invalid("[inverse] vary names nothing that these ends have");
   return DesignProblem{std::move(coarse),      std::move(*fine),     std::move(*target),
@@ -126,7 +126,7 @@ Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& s
 /// Shells with random errors of pins and legs, each in equilibrium, computed from the designed one.
 FabricationErrors fabricate(DesignShell& shell, DesignTarget& target, double sigma_mm,
                             double farthest_mm, const Watch& watch) {
-  const DesignShell::ShellPosition begin = shell.stand();
+  const DesignShell::ShellPosition begin = shell.position();
   std::mt19937_64 random(1);
   std::normal_distribution<double> error(0, sigma_mm);
   const auto off = [&](double value) { return value + error(random); };
@@ -221,8 +221,8 @@ Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
   found.rounded_table = table_of(*scene, by_hand);
   int row = 0;
   for (const FootprintRod& rod : scene->footprint.rods)
-    for (const RodEnd hold : {rod.begin, rod.end})
-      found.row_of_end.push_back(is_fixed(hold) ? row++ : -1);
+    for (const RodEnd kind : {rod.begin, rod.end})
+      found.row_of_end.push_back(is_fixed(kind) ? row++ : -1);
   if (auto moved = fine.move_in_steps(by_hand, jump); !moved)
     return fail(Fault::no_equilibrium, "rounded to {:g} mm the designed shell is lost: {}",
                 preset.inverse.round_mm, moved.error().message);
@@ -239,11 +239,11 @@ Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::M
                                     const Eigen::Matrix3Xd& nodes) {
   TRY(scene, scene_of(preset));
   const Eigen::Matrix2Xd uv = scene->flat.axes.transpose() * (flat.colwise() - scene->flat.origin);
-  Eigen::Matrix3Xd places = nodes;
+  Eigen::Matrix3Xd positions = nodes;
   for (Eigen::Index k = 0; k < nodes.cols(); ++k)
     if (auto target = DesignTarget::make(scene->net, uv.col(k), preset.inverse.target))
-      places.col(k) = target->nearest(nodes.col(k));
-  return places;
+      positions.col(k) = target->nearest(nodes.col(k));
+  return positions;
 }
 
 Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignStart& from,

@@ -68,8 +68,8 @@ void DesignShell::find_legs() {
       }
       leg.at_end = side == 0 ? leg.edges.front() : leg.edges.back();
       const auto& nodes = mesh_.rods[r];
-      const int beyond = side == 0 ? nodes.front() : nodes.back();
-      if (mesh_.is_ghost(beyond)) leg.ghost = beyond;
+      const int outer = side == 0 ? nodes.front() : nodes.back();
+      if (mesh_.is_ghost(outer)) leg.ghost = outer;
       if (!mesh_.far_ends.empty()) leg.far = mesh_.far_ends[2 * r + std::size_t(side)];
     }
   }
@@ -126,11 +126,11 @@ void DesignShell::impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const {
   }
 }
 
-void DesignShell::back_to(const ShellPosition& stand) {
-  set_legs(stand.ends);
-  set_diameters(stand.ends);
-  state_ = stand.state;
-  ends_ = stand.ends;
+void DesignShell::back_to(const ShellPosition& to) {
+  set_legs(to.ends);
+  set_diameters(to.ends);
+  state_ = to.state;
+  ends_ = to.ends;
   system_->at(state_, false);
 }
 
@@ -154,7 +154,7 @@ Result<void> DesignShell::settle(const ShellEnds& ends, double farthest_mm, cons
 }
 
 Result<void> DesignShell::move(const ShellEnds& ends, double farthest_mm, const Watch& watch) {
-  const ShellPosition before = stand();
+  const ShellPosition before = position();
   Eigen::Matrix3Xd there = state_.x;
   impose(ends, there);
   const Eigen::Matrix3Xd dx =
@@ -170,7 +170,7 @@ Result<void> DesignShell::move(const ShellEnds& ends, double farthest_mm, const 
 Result<void> DesignShell::move_in_steps(const ShellEnds& ends, double farthest_mm,
                                         const Watch& watch) {
   constexpr double shortest = 1.0 / 64;
-  const ShellPosition before = stand();
+  const ShellPosition before = position();
   double at = 0, step = 1;
   while (at < 1) {
     const double next = std::min(1.0, at + step);

@@ -46,8 +46,8 @@ class DesignShell {
     State state;
     ShellEnds ends;
   };
-  ShellPosition stand() const { return {state_, ends_}; }
-  void back_to(const ShellPosition& stand);
+  ShellPosition position() const { return {state_, ends_}; }
+  void back_to(const ShellPosition& to);
 
   /// -H^-1 dg/dq for every column of `changes`, a combination of variables with `rates`. After a
   /// cancel the result must not be used.

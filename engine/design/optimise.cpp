@@ -15,12 +15,12 @@ Eigen::VectorXd Distances::size() const { return vector.colwise().norm(); }
 
 Result<DesignTarget> DesignTarget::make(std::shared_ptr<const ChebyshevNet> net,
                                         Eigen::Matrix2Xd uv, preset::Target kind) {
-  TRY(places, points_on(*net, uv));
+  TRY(positions, points_on(*net, uv));
   DesignTarget target;
   target.net_ = std::move(net);
   target.kind_ = kind;
   target.uv_ = std::move(uv);
-  target.places_ = std::move(*places);
+  target.positions_ = std::move(*positions);
   return target;
 }
 
@@ -29,7 +29,7 @@ Eigen::Matrix3Xd DesignTarget::nearest(const Eigen::Matrix3Xd& joints) {
 }
 
 Distances DesignTarget::distances(const Eigen::Matrix3Xd& joints) {
-  if (kind_ == preset::Target::net) return {joints - places_, {}};
+  if (kind_ == preset::Target::net) return {joints - positions_, {}};
   constexpr int most_iterations = 30;
   constexpr double near_mm = 1e-10;
   Distances found{Eigen::Matrix3Xd(3, joints.cols()), Eigen::Matrix3Xd(3, joints.cols())};
@@ -189,7 +189,7 @@ class Optimiser {
   /// Moves the shell to q. If the step is refused, returns the reason and leaves the shell
   /// unchanged; else an empty text.
   std::string attempt(const Eigen::VectorXd& q, double value, double p) {
-    const DesignShell::ShellPosition before = shell_.stand();
+    const DesignShell::ShellPosition before = shell_.position();
     if (auto moved = shell_.move(variables_.ends_at(q), jump_mm_, watch_); !moved)
       return moved.error().message;
     const std::string wrong = wrong_with(q, value, p);

@@ -43,8 +43,8 @@ class DesignTarget {
  private:
   std::shared_ptr<const ChebyshevNet> net_;
   preset::Target kind_ = preset::Target::surface;
-  Eigen::Matrix2Xd uv_;      // (u, v) of the nearest points
-  Eigen::Matrix3Xd places_;  // positions of the joints on the net, mm
+  Eigen::Matrix2Xd uv_;         // (u, v) of the nearest points
+  Eigen::Matrix3Xd positions_;  // positions of the joints on the net, mm
 };
 
 // The objective of a design, with gradient and curvature.

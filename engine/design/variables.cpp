@@ -12,28 +12,29 @@ namespace gridshell {
 namespace {
 
 /// (u, v) of all joints, then of all ends.
-Eigen::Matrix2Xd places_of(const Footprint& footprint) {
+Eigen::Matrix2Xd positions_of(const Footprint& footprint) {
   const Eigen::Index joints = Eigen::Index(footprint.joints.size());
-  Eigen::Matrix2Xd places(2, joints + 2 * Eigen::Index(footprint.rods.size()));
+  Eigen::Matrix2Xd positions(2, joints + 2 * Eigen::Index(footprint.rods.size()));
   for (Eigen::Index k = 0; k < joints; ++k) {
     const FootprintJoint& joint = footprint.joints[std::size_t(k)];
-    places.col(k) << joint.u, joint.v;
+    positions.col(k) << joint.u, joint.v;
   }
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     for (int side = 0; side < 2; ++side) {
-      places.col(joints + 2 * Eigen::Index(r) + side) =
+      positions.col(joints + 2 * Eigen::Index(r) + side) =
           rod.at(side == 0 ? rod.span.begin : rod.span.end);
     }
   }
-  return places;
+  return positions;
 }
 
 /// The permutation of positions under a symmetry; joints map to joints, ends to ends.
-std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& places, Eigen::Index joints,
-                                               const Eigen::Matrix2d& map, double near_mm) {
-  auto to = images_of(places.leftCols(joints), map, near_mm);
-  const auto ends = images_of(places.rightCols(places.cols() - joints), map, near_mm);
+std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& positions,
+                                               Eigen::Index joints, const Eigen::Matrix2d& map,
+                                               double near_mm) {
+  auto to = images_of(positions.leftCols(joints), map, near_mm);
+  const auto ends = images_of(positions.rightCols(positions.cols() - joints), map, near_mm);
   if (!to || !ends) return std::nullopt;
   for (const int end : *ends) to->push_back(int(joints) + end);
   return to;
@@ -96,9 +97,9 @@ std::vector<Eigen::Vector3d> directions_of(Vary kind, const ShellEnds& ends, Eig
 }
 
 /// Whether there is a variable of this kind at an end; the diameter of a rod belongs to its start.
-bool applies(Vary kind, Eigen::Index end, RodEnd hold) {
+bool applies(Vary kind, Eigen::Index end, RodEnd end_kind) {
   if (kind == Vary::diameters) return end % 2 == 0;
-  return kind == Vary::directions ? fixes_direction(hold) : is_fixed(hold);
+  return kind == Vary::directions ? fixes_direction(end_kind) : is_fixed(end_kind);
 }
 
 /// The projector on the changes that all symmetries preserve: the mean of their actions on the
@@ -130,13 +131,13 @@ Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
 
 std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
                                          double near_mm) {
-  const Eigen::Matrix2Xd places = places_of(scene.footprint);
-  Eigen::Matrix3Xd points(3, places.cols());
+  const Eigen::Matrix2Xd positions = positions_of(scene.footprint);
+  Eigen::Matrix3Xd points(3, positions.cols());
   points << joints, scene.motion.end;
   std::vector<ShellSymmetry> found;
   for (const Eigen::Matrix3d& map : square_symmetries()) {
     if (map(2, 2) < 0) continue;  // it turns the shell over
-    const auto to = permutation_of(places, joints.cols(), map.topLeftCorner<2, 2>(), near_mm);
+    const auto to = permutation_of(positions, joints.cols(), map.topLeftCorner<2, 2>(), near_mm);
     if (!to) continue;
     Eigen::Matrix3Xd there(3, points.cols());
     for (Eigen::Index k = 0; k < points.cols(); ++k)

@@ -111,8 +111,8 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
   h.add(model.edges[std::size_t(contact.f)].slot, block(2, 3));
   for (int i = 0; i < 2; ++i)
     for (int j = 2; j < 4; ++j) {
-      h.beyond.push_back({contact.node[std::size_t(i)], contact.node[std::size_t(j)], {}});
-      h.beyond.back().block.matrix() = block(i, j);
+      h.extra.push_back({contact.node[std::size_t(i)], contact.node[std::size_t(j)], {}});
+      h.extra.back().block.matrix() = block(i, j);
     }
 }
 
@@ -140,10 +140,10 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
   h.diagonal[std::size_t(action.node)].matrix().diagonal() += factor * action.stiffness;
   if (action.pressure == 0) return;
   const double fraction = factor * action.pressure / 6;
-  const auto [second, third] = action.beside;
+  const auto [second, third] = action.corners;
   const auto add = [&](int row, int column, const Eigen::Vector3d& by) {
-    h.beyond.push_back({row, column, {}});
-    h.beyond.back().block.matrix() = fraction * cross_matrix(by);
+    h.extra.push_back({row, column, {}});
+    h.extra.back().block.matrix() = fraction * cross_matrix(by);
   };
   add(action.node, second, action.apex(x));
   if (third < 0) return;
@@ -337,7 +337,7 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
   };
   const auto& pairs = model.pattern.pairs();
   for (std::size_t k = 0; k < pairs.size(); ++k) add(pairs[k][0], pairs[k][1], hessian.pair[k]);
-  for (const BlockHessian::Beyond& one : hessian.beyond) add(one.row, one.column, one.block);
+  for (const BlockHessian::Extra& one : hessian.extra) add(one.row, one.column, one.block);
   if (hessian.rank_one.cols() > 0) y += hessian.rank_one * hessian.rank_one.cwiseProduct(x).sum();
 }
 

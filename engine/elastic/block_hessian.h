@@ -38,12 +38,12 @@ class BlockPattern {
 struct BlockHessian {
   /// A block outside the pattern, between edges that come near each other or between nodes of a
   /// face under pressure. It may be zero; several may belong to one pair of columns.
-  struct Beyond {
+  struct Extra {
     int row = 0, column = 0;
     Block3 block;
   };
   std::vector<Block3> diagonal, pair;
-  std::vector<Beyond> beyond;
+  std::vector<Extra> extra;
   Eigen::Matrix3Xd rank_one{};  ///< c, 3 x columns: c c^T is added; empty: none
 
   void reset(std::size_t columns, std::size_t pairs, Team* team = nullptr) {
@@ -54,7 +54,7 @@ struct BlockHessian {
       const auto at = [&](int piece) { return pair.begin() + long(pairs * piece / pieces); };
       std::fill(at(k), at(k + 1), Block3{});
     });
-    beyond.clear();
+    extra.clear();
     rank_one.resize(3, 0);
   }
   void add(BlockSlot slot, const Block3& block) {

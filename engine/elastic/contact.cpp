@@ -131,9 +131,9 @@ ContactBarrier::Value ContactBarrier::at(double distance2, double radii, double 
   if (!(x < 1)) return {};
   auto [b, slope, curvature] = log_barrier(std::max(x, parabola_from));
   if (x < parabola_from) {
-    const double beyond = x - parabola_from;
-    b += beyond * (slope + 0.5 * beyond * curvature);
-    slope += beyond * curvature;
+    const double excess = x - parabola_from;
+    b += excess * (slope + 0.5 * excess * curvature);
+    slope += excess * curvature;
   }
   const double k = stiffness_N_per_mm * gap * gap;
   return {k * b, k * slope / range, k * curvature / (range * range)};

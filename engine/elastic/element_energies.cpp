@@ -17,7 +17,7 @@ double NodeAction::value(const Eigen::Matrix3Xd& x) const {
   const Eigen::Vector3d at = x.col(node);
   double value = -force.dot(at) + 0.5 * (stiffness.array() * (at - anchor).array().square()).sum();
   if (pressure != 0)
-    value -= pressure / 6 * at.dot(Eigen::Vector3d(x.col(beside[0])).cross(apex(x)));
+    value -= pressure / 6 * at.dot(Eigen::Vector3d(x.col(corners[0])).cross(apex(x)));
   return value;
 }
 
@@ -26,11 +26,11 @@ void NodeAction::add_gradient(double factor, const Eigen::Matrix3Xd& x,
   const Eigen::Vector3d at = x.col(node);
   gradient.col(node) += factor * (stiffness.cwiseProduct(at - anchor) - force);
   if (pressure == 0) return;
-  const Eigen::Vector3d y = x.col(beside[0]), z = apex(x);
+  const Eigen::Vector3d y = x.col(corners[0]), z = apex(x);
   const double fraction = factor * pressure / 6;
   gradient.col(node) -= fraction * y.cross(z);
-  gradient.col(beside[0]) -= fraction * z.cross(at);
-  if (beside[1] >= 0) gradient.col(beside[1]) -= fraction * at.cross(y);
+  gradient.col(corners[0]) -= fraction * z.cross(at);
+  if (corners[1] >= 0) gradient.col(corners[1]) -= fraction * at.cross(y);
 }
 
 double NodeBar::value(double e) const {

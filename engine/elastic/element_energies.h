@@ -13,7 +13,7 @@ namespace gridshell {
 /// An external action on a node at x:
 ///   E = -f . x + 1/2 sum over the axes of k (x - a)^2 - p/6 x . (y x z).
 /// The terms are a force, springs to fixed points (the ground), and a pressure p on the triangle of
-/// x and the two nodes `beside` it, at y and z: p times the volume between the triangle and the
+/// x and the two `corners`, at y and z: p times the volume between the triangle and the
 /// origin, so that the force stays normal to the triangle. For a pressure along a plane curve, z is
 /// the anchor (three times the plane's normal) and p a force per length.
 struct NodeAction {
@@ -22,15 +22,15 @@ struct NodeAction {
   Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();  ///< k, N/mm
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();     ///< a, mm
   Term term = Term::load;
-  double pressure = 0;                ///< p, N/mm^2
-  std::array<int, 2> beside{-1, -1};  ///< nodes at y and z; the second -1: z is the anchor
+  double pressure = 0;                 ///< p, N/mm^2
+  std::array<int, 2> corners{-1, -1};  ///< nodes at y and z; the second -1: z is the anchor
 
   NodeAction& operator*=(double factor);
   bool is_none() const { return force.isZero(0) && stiffness.isZero(0) && pressure == 0; }
   double value(const Eigen::Matrix3Xd& x) const;
   void add_gradient(double factor, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& gradient) const;
   Eigen::Vector3d apex(const Eigen::Matrix3Xd& x) const {  ///< z, mm
-    return beside[1] < 0 ? anchor : Eigen::Vector3d(x.col(beside[1]));
+    return corners[1] < 0 ? anchor : Eigen::Vector3d(x.col(corners[1]));
   }
 };
 

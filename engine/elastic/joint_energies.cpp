@@ -109,7 +109,7 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
   both.topLeftCorner<6, 6>() +=
       own(row, row) * length * length * phi.gradient.head<6>() * phi.gradient.head<6>().transpose();
   add_vector_hessian(model, pair, both, out.hessian);
-  for (const auto& [column, slot, slots] : blocks.beside) {
+  for (const auto& [column, slot, slots] : blocks.neighbours) {
     const Eigen::RowVector3d couples = slot < 0 ? own.row(row) : row_of(out.hessian, slot, row);
     for (std::size_t k = 0; k < blocks.leading.size(); ++k)
       add_block(blocks.leading[k], column, slots[k], by[k] * couples, out.hessian);
@@ -121,7 +121,7 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
 /// H_mj -= H_sj, and on the diagonal both times.
 void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
   const auto& [node, centre, first, blocks] = one;
-  for (const auto& [column, slot, slots] : blocks.beside) {
+  for (const auto& [column, slot, slots] : blocks.neighbours) {
     if (slot < 0) continue;
     Block3& known = h.pair[std::size_t(slot >> 1)];
     const Eigen::Matrix3d block =
@@ -138,7 +138,7 @@ void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
 }
 
 /// Transfers the blocks outside the pattern of nodes that follow others.
-void reduce_beyond(const Model& model, BlockHessian& h) {
+void reduce_extra(const Model& model, BlockHessian& h) {
   const auto leading = [&](int column) {
     std::vector<std::pair<int, double>> parts{{column, 1}};
     for (const ModelFollower& one : model.followers)
@@ -148,10 +148,10 @@ void reduce_beyond(const Model& model, BlockHessian& h) {
   const auto follows = [&](int column) {
     return model.fixed[std::size_t(column)] == Model::follows;
   };
-  const auto all = std::exchange(h.beyond, {});
-  for (const BlockHessian::Beyond& one : all) {
+  const auto all = std::exchange(h.extra, {});
+  for (const BlockHessian::Extra& one : all) {
     if (!follows(one.row) && !follows(one.column)) {
-      h.beyond.push_back(one);
+      h.extra.push_back(one);
       continue;
     }
     for (const auto& [row, by] : leading(one.row))
@@ -161,8 +161,8 @@ void reduce_beyond(const Model& model, BlockHessian& h) {
           add_block(row, column, -1, block, h);
           continue;
         }
-        h.beyond.push_back({row, column, {}});
-        h.beyond.back().block.matrix() = block;
+        h.extra.push_back({row, column, {}});
+        h.extra.back().block.matrix() = block;
       }
   }
 }
@@ -341,7 +341,7 @@ void reduce_to_free(const Model& model, const State& state, bool with_hessian, A
   if (!with_hessian || model.followers.empty()) return;
   for (const ModelFollower& one : model.followers) reduce(one, model, out.hessian);
   if (out.hessian.rank_one.cols() > 0) model.fold(out.hessian.rank_one);
-  reduce_beyond(model, out.hessian);
+  reduce_extra(model, out.hessian);
 }
 
 void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum) {

@@ -15,7 +15,7 @@ namespace {
 /// The two halves of a rod's edge that is centred on the joint at `node`; the second is -1 if the
 /// rod has only one edge there.
 std::pair<int, int> halves_at(const Model& model, int rod, int node) {
-  const std::vector<int> edges = edges_beside(model, rod, node);
+  const std::vector<int> edges = edges_at(model, rod, node);
   return {edges.front(), edges.size() > 1 ? edges.back() : -1};
 }
 
@@ -49,7 +49,7 @@ int Model::dof() const {
   return count;
 }
 
-std::vector<int> edges_beside(const Model& model, int rod, int node) {
+std::vector<int> edges_at(const Model& model, int rod, int node) {
   std::vector<int> edges;
   for (int k : model.rods[std::size_t(rod)].edges)
     if (const ModelEdge& edge = model.edges[std::size_t(k)]; edge.from == node || edge.to == node)
@@ -58,7 +58,7 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
 }
 
 Eigen::Vector3d tangent_at(const Model& model, const Eigen::Matrix3Xd& x, int rod, int node) {
-  const std::vector<int> edges = edges_beside(model, rod, node);
+  const std::vector<int> edges = edges_at(model, rod, node);
   const auto tangent = [&](int edge) {
     return geometry_of(x, model.edges[std::size_t(edge)]).tangent;
   };

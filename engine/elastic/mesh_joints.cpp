@@ -56,7 +56,7 @@ double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
   double sum = 0;
   for (const auto& [rod, node, EI] :
        {std::tuple(at.rod_a, at.node_a, of[0]), std::tuple(at.rod_b, at.node_b, of[1])}) {
-    const int edge = edges_beside(model, rod, node).front();
+    const int edge = edges_at(model, rod, node).front();
     sum += EI / length_between(model, edge, edge);
   }
   return 20.0 * mesh.edges_per_segment * sum;
@@ -97,7 +97,7 @@ Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
 std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& crossings) {
   std::vector<Eigen::Vector3d> normals(crossings.size(), Eigen::Vector3d::UnitZ());
   if (mesh.height.size() == 0) return normals;
-  std::vector<std::vector<int>> beside(crossings.size());
+  std::vector<std::vector<int>> neighbours(crossings.size());
   for (std::size_t joint = 0; joint < crossings.size(); ++joint) {
     std::vector<Eigen::Vector3d> across;
     each_two(crossings[joint].size(), [&](std::size_t k, std::size_t m, double) {
@@ -115,8 +115,8 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
       const int joint = mesh.joint_of(node);
       if (joint < 0 || normals[std::size_t(joint)].isZero(0)) continue;
       if (before >= 0) {
-        beside[std::size_t(before)].push_back(joint);
-        beside[std::size_t(joint)].push_back(before);
+        neighbours[std::size_t(before)].push_back(joint);
+        neighbours[std::size_t(joint)].push_back(before);
       }
       before = joint;
     }
@@ -126,7 +126,7 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
     if (std::exchange(seen[first], 1)) continue;
     std::vector<int> piece{int(first)};
     for (std::size_t k = 0; k < piece.size(); ++k)
-      for (const int next : beside[std::size_t(piece[k])]) {
+      for (const int next : neighbours[std::size_t(piece[k])]) {
         if (std::exchange(seen[std::size_t(next)], 1)) continue;
         Eigen::Vector3d& normal = normals[std::size_t(next)];
         if (normal.dot(normals[std::size_t(piece[k])]) < 0) normal *= -1;

@@ -314,21 +314,22 @@ void set_slots(Model& model, Pair<Law>& pair) {
 /// transferred: angles first, as they follow nodes of which some follow others.
 void set_follower_slots(Model& model) {
   for (ModelHinge& hinge : model.hinges) set_vector_slots(model, hinge.pair);
-  std::vector<std::vector<int>> beside(std::size_t(model.columns()));
+  std::vector<std::vector<int>> neighbours(std::size_t(model.columns()));
   const auto& pairs = model.pattern.pairs();
   std::size_t seen = 0;
   const auto take_new = [&] {
     for (; seen < pairs.size(); ++seen)
-      for (const int k : {0, 1}) beside[std::size_t(pairs[seen][k])].push_back(pairs[seen][1 - k]);
+      for (const int k : {0, 1})
+        neighbours[std::size_t(pairs[seen][k])].push_back(pairs[seen][1 - k]);
   };
   const auto blocks_of = [&](int follower, std::vector<int> leading) {
     FollowerBlocks blocks{std::move(leading), {}};
     take_new();
-    for (const int column : beside[std::size_t(follower)])
-      blocks.beside.push_back({column, slot_of(model, follower, column)});
+    for (const int column : neighbours[std::size_t(follower)])
+      blocks.neighbours.push_back({column, slot_of(model, follower, column)});
     // its own block is the last: its blocks with the leading columns must be transferred before
-    blocks.beside.push_back({follower});
-    for (auto& [column, own, slots] : blocks.beside)
+    blocks.neighbours.push_back({follower});
+    for (auto& [column, own, slots] : blocks.neighbours)
       for (std::size_t k = 0; k < blocks.leading.size(); ++k)
         slots[k] = slot_of(model, blocks.leading[k], column);
     return blocks;

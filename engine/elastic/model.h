@@ -89,7 +89,7 @@ struct FollowerBlocks {
     std::array<BlockSlot, 4> leading{-1, -1, -1, -1};  ///< of the leading columns; -1: same column
   };
   std::vector<int> leading;  ///< columns that the following column follows
-  std::vector<Column> beside;
+  std::vector<Column> neighbours;
 };
 
 /// The second node of a centred edge, which follows from the joint and the first node:
@@ -238,7 +238,7 @@ auto* law_of(AnyModel& model, int bend) {
 }
 
 /// The edges of rod `rod` at a node: one at its end, else two.
-std::vector<int> edges_beside(const Model& model, int rod, int node);
+std::vector<int> edges_at(const Model& model, int rod, int node);
 
 /// The unit tangent of a rod at a node: the direction of the edge that is centred there, else that
 /// of the quadratic through the two edges, t ~ t1 l2 + t2 l1 (t1, t2 unit tangents, l1, l2

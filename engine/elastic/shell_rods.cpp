@@ -104,7 +104,7 @@ Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
 
 /// Pinned nodes other than rod ends: edge points with a tail or without a rod, joints that the
 /// boundary fixes, supports of springs.
-std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
+std::vector<int> pinned_inside_rods(const RodMesh& mesh) {
   std::vector<int> nodes = mesh.fixed_joints;
   for (const MeshSpring& spring : mesh.springs) {
     std::erase(nodes, spring.node);
@@ -196,7 +196,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   TRY_DO(add_joint_laws(mesh, shell, at_joints, normals, *model));
   for (const MeshSpring& spring : mesh.springs)
     model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
-  const std::vector<int> pinned = pinned_beside_ends(mesh);
+  const std::vector<int> pinned = pinned_inside_rods(mesh);
   for (const int node : pinned) model->pin(node);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});

@@ -24,7 +24,7 @@ using Line = std::vector<Eigen::Vector2d>;
 
 /// The parts of a polyline inside a cut. They end before the cut: points on it would be in the
 /// outlines of both blocks.
-std::vector<Line> clipped(const Line& line, const Assemblage::PlacedBlock& block, Side side) {
+std::vector<Line> clipped(const Line& line, const Assemblage::PositionedBlock& block, Side side) {
   std::vector<Line> kept;
   bool open = false;
   for (const Eigen::Vector2d& point : line) {
@@ -36,19 +36,20 @@ std::vector<Line> clipped(const Line& line, const Assemblage::PlacedBlock& block
   return kept;
 }
 
-using Places = Assemblage::Places;
-using PlacedBlock = Assemblage::PlacedBlock;
+using PositionedBlocks = Assemblage::PositionedBlocks;
+using PositionedBlock = Assemblage::PositionedBlock;
 
-std::string name_of(const Places& places, const BlockSide& side) {
-  return fmt::format("{}.{}", places[side.block].block.name, word_of(side.side));
+std::string name_of(const PositionedBlocks& positioned, const BlockSide& side) {
+  return fmt::format("{}.{}", positioned[side.block].block.name, word_of(side.side));
 }
 
-std::string name_of(const Places& places, const Join& join) {
-  return name_of(places, join.first) + " - " + name_of(places, join.second);
+std::string name_of(const PositionedBlocks& positioned, const Join& join) {
+  return name_of(positioned, join.first) + " - " + name_of(positioned, join.second);
 }
 
-tl::unexpected<Error> refuse(const Places& places, const Join& join, const std::string& why) {
-  return invalid("seam {}: {}", name_of(places, join), why);
+tl::unexpected<Error> refuse(const PositionedBlocks& positioned, const Join& join,
+                             const std::string& why) {
+  return invalid("seam {}: {}", name_of(positioned, join), why);
 }
 
 bool face(Side a, Side b) {
@@ -56,51 +57,52 @@ bool face(Side a, Side b) {
   return a != b && int(a) / 2 == int(b) / 2;
 }
 
-Result<void> check_sides(const Places& places, const std::vector<Join>& joins) {
-  std::vector<std::array<int, 4>> used(places.size(), {0, 0, 0, 0});
+Result<void> check_sides(const PositionedBlocks& positioned, const std::vector<Join>& joins) {
+  std::vector<std::array<int, 4>> used(positioned.size(), {0, 0, 0, 0});
   for (const Join& join : joins) {
     if (!face(join.first.side, join.second.side))
-      return refuse(places, join,
+      return refuse(positioned, join,
                     "the sides do not face one another; join east with west or north with south");
     for (const BlockSide& side : {join.first, join.second}) {
-      if (!places[side.block].block.cut[std::size_t(side.side)])
-        return refuse(places, join,
-                      fmt::format("{} is not cut at a row of joints", name_of(places, side)));
+      if (!positioned[side.block].block.cut[std::size_t(side.side)])
+        return refuse(positioned, join,
+                      fmt::format("{} is not cut at a row of joints", name_of(positioned, side)));
       if (++used[side.block][std::size_t(side.side)] > 1)
-        return refuse(places, join, fmt::format("{} is joined twice", name_of(places, side)));
+        return refuse(positioned, join,
+                      fmt::format("{} is joined twice", name_of(positioned, side)));
     }
-    const Block &a = places[join.first.block].block, &b = places[join.second.block].block;
+    const Block &a = positioned[join.first.block].block, &b = positioned[join.second.block].block;
     if (a.spacing != b.spacing)
-      return refuse(places, join,
+      return refuse(positioned, join,
                     fmt::format("the distance between rods is d = {:g} mm and {:g} mm, expected "
                                 "the same",
                                 a.spacing, b.spacing));
     if (a.placement != b.placement)
-      return refuse(places, join,
+      return refuse(positioned, join,
                     "rods lie on the axes of one block and next to those of the other");
   }
-  for (int k = 0; k < int(places.size()); ++k)
+  for (int k = 0; k < int(positioned.size()); ++k)
     for (const Side side : all_sides)
-      if (places[k].block.cut[std::size_t(side)] && !used[k][std::size_t(side)])
+      if (positioned[k].block.cut[std::size_t(side)] && !used[k][std::size_t(side)])
         return invalid("{} is cut and not joined: its rods would end in the air",
-                       name_of(places, BlockSide{k, side}));
+                       name_of(positioned, BlockSide{k, side}));
   return {};
 }
 
 /// Shift of the second block against the first that brings the joints of their rows together.
-Result<Eigen::Vector2d> shift_of(const Places& places, const Join& join) {
-  const auto a = places[join.first.block].row(join.first.side);
-  const auto b = places[join.second.block].row(join.second.side);
+Result<Eigen::Vector2d> shift_of(const PositionedBlocks& positioned, const Join& join) {
+  const auto a = positioned[join.first.block].row(join.first.side);
+  const auto b = positioned[join.second.block].row(join.second.side);
   if (a.size() != b.size() || a.empty())
-    return refuse(places, join,
+    return refuse(positioned, join,
                   fmt::format("got {} rods across {} and {} across {}, expected equal numbers, at "
                               "least 2: change a radius, a crossing angle or a row",
-                              2 * a.size(), name_of(places, join.first), 2 * b.size(),
-                              name_of(places, join.second)));
+                              2 * a.size(), name_of(positioned, join.first), 2 * b.size(),
+                              name_of(positioned, join.second)));
   const Eigen::Vector2d shift = a.front() - b.front();
   for (std::size_t k = 0; k < a.size(); ++k)
-    if ((a[k] - b[k] - shift).norm() > 1e-9 * places[join.first.block].block.spacing)
-      return refuse(places, join,
+    if ((a[k] - b[k] - shift).norm() > 1e-9 * positioned[join.first.block].block.spacing)
+      return refuse(positioned, join,
                     fmt::format("its {} rods do not follow one another in the same order on both "
                                 "sides",
                                 2 * a.size()));
@@ -112,10 +114,11 @@ double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// Both nets at the joints of a seam between two blocks with known positions.
-Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const Places& places, const Join& join) {
+Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const PositionedBlocks& positioned,
+                                                      const Join& join) {
   std::vector<std::array<NetPoint, 2>> pairs;
-  for (const Eigen::Vector2d& joint : places[join.first.block].row(join.first.side)) {
-    TRY(a, places[join.first.block].at(joint), b = places[join.second.block].at(joint));
+  for (const Eigen::Vector2d& joint : positioned[join.first.block].row(join.first.side)) {
+    TRY(a, positioned[join.first.block].at(joint), b = positioned[join.second.block].at(joint));
     if (!b) return tl::unexpected(b.error());
     pairs.push_back({*a, *b});
   }
@@ -123,11 +126,11 @@ Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const Places& places, cons
 }
 
 /// Moves one block of a join next to the other: the second block if `second`, else the first.
-Result<void> place_beside(Places& places, const Join& join, bool second) {
-  TRY(shift, shift_of(places, join));
-  PlacedBlock& moved = places[second ? join.second.block : join.first.block];
+Result<void> move_next_to(PositionedBlocks& positioned, const Join& join, bool second) {
+  TRY(shift, shift_of(positioned, join));
+  PositionedBlock& moved = positioned[second ? join.second.block : join.first.block];
   moved.shift += second ? *shift : Eigen::Vector2d(-*shift);
-  TRY(pairs, pairs_at(places, join));
+  TRY(pairs, pairs_at(positioned, join));
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& [a, b] : *pairs) middle += (a.position - b.position) / double(pairs->size());
   // only horizontally: all boundaries remain in one plane
@@ -137,38 +140,38 @@ Result<void> place_beside(Places& places, const Join& join, bool second) {
 }
 
 /// Positions all blocks, starting from the first, along the joins.
-Result<void> place_all(Places& places, const std::vector<Join>& joins) {
-  std::vector<char> placed(places.size(), 0);
-  placed.front() = 1;
+Result<void> position_all(PositionedBlocks& positioned, const std::vector<Join>& joins) {
+  std::vector<char> known(positioned.size(), 0);
+  known.front() = 1;
   for (bool moved = true; moved;) {
     moved = false;
     for (const Join& join : joins) {
       const int a = join.first.block, b = join.second.block;
-      if (placed[a] == placed[b]) continue;
-      if (auto done = place_beside(places, join, placed[a]); !done) return done;
-      placed[a] = placed[b] = moved = true;
+      if (known[a] == known[b]) continue;
+      if (auto done = move_next_to(positioned, join, known[a]); !done) return done;
+      known[a] = known[b] = moved = true;
     }
   }
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (!placed[k])
-      return invalid("no join connects block \"{}\" to block \"{}\"", places[k].block.name,
-                     places.front().block.name);
+  for (std::size_t k = 0; k < positioned.size(); ++k)
+    if (!known[k])
+      return invalid("no join connects block \"{}\" to block \"{}\"", positioned[k].block.name,
+                     positioned.front().block.name);
   return {};
 }
 
-Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
+Result<Seam> seam_of(const PositionedBlocks& positioned, const Join& join, double max_gap) {
   // all blocks have their positions: a remaining shift means that a loop of joins does not close
-  TRY(shift, shift_of(places, join));
-  const double d = places.front().block.spacing;
+  TRY(shift, shift_of(positioned, join));
+  const double d = positioned.front().block.spacing;
   if (shift->norm() > 1e-9 * d)
     return refuse(
-        places, join,
+        positioned, join,
         fmt::format(
             "the joins round the loop leave a gap of ({:.4g}, {:.4g}) cells between the sides",
             shift->x() / d, shift->y() / d));
-  TRY(pairs, pairs_at(places, join));
-  const auto joints = places[join.first.block].row(join.first.side);
-  Seam seam{join.first, join.second, name_of(places, join), {}};
+  TRY(pairs, pairs_at(positioned, join));
+  const auto joints = positioned[join.first.block].row(join.first.side);
+  Seam seam{join.first, join.second, name_of(positioned, join), {}};
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const auto& [a, b] = (*pairs)[k];
     const double gap = (a.position - b.position).norm();
@@ -179,7 +182,7 @@ Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
     const SeamRod &u = seam.rods[k], &v = seam.rods[k + 1];
     if (seam.max_gap_mm() <= max_gap || u.gap_mm < seam.max_gap_mm()) continue;
     return refuse(
-        places, join,
+        positioned, join,
         fmt::format(
             "at the joint (u, v) = ({:g}, {:g}) mm the nets have a gap of {:.3g} mm and the rods' "
             "tangents {:.3g} and {:.3g} degrees, expected a gap of at most {:g} mm",
@@ -188,22 +191,23 @@ Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
   return seam;
 }
 
-Result<void> check_apart(const Places& places) {
-  const double d = places.front().block.spacing;
-  for (std::size_t a = 0; a < places.size(); ++a)
-    for (std::size_t b = a + 1; b < places.size(); ++b) {
-      const double reach = places[a].block.domain->reach() + places[a].shift.cwiseAbs().maxCoeff();
+Result<void> check_apart(const PositionedBlocks& positioned) {
+  const double d = positioned.front().block.spacing;
+  for (std::size_t a = 0; a < positioned.size(); ++a)
+    for (std::size_t b = a + 1; b < positioned.size(); ++b) {
+      const double reach =
+          positioned[a].block.domain->reach() + positioned[a].shift.cwiseAbs().maxCoeff();
       const int last = static_cast<int>(std::ceil(reach / d)) + 1;
       for (const Family family : {Family::u, Family::v})
         for (int k = -last; k <= last; ++k) {
-          const double line = line_of(places[a].block.placement, k, d);
-          for (const Interval& one : places[a].intervals(family, line))
-            for (const Interval& two : places[b].intervals(family, line))
+          const double line = line_of(positioned[a].block.placement, k, d);
+          for (const Interval& one : positioned[a].intervals(family, line))
+            for (const Interval& two : positioned[b].intervals(family, line))
               if (std::min(one.end, two.end) - std::max(one.begin, two.begin) > 1e-6 * d)
                 return invalid(
                     "blocks \"{}\" and \"{}\" overlap in the footprint, on the {}-rod at {:g} mm",
-                    places[a].block.name, places[b].block.name, family == Family::u ? "u" : "v",
-                    line);
+                    positioned[a].block.name, positioned[b].block.name,
+                    family == Family::u ? "u" : "v", line);
         }
     }
   return {};
@@ -218,7 +222,7 @@ double along_sides(Side side, const Eigen::Vector2d& uv) {
 
 double outward(Side side) { return side == Side::east || side == Side::north ? 1 : -1; }
 
-Result<NetPoint> Assemblage::PlacedBlock::at(const Eigen::Vector2d& uv) const {
+Result<NetPoint> Assemblage::PositionedBlock::at(const Eigen::Vector2d& uv) const {
   const Eigen::Vector2d own = uv - shift;
   auto point = block.net->at(own.x(), own.y());
   if (!point)
@@ -229,25 +233,25 @@ Result<NetPoint> Assemblage::PlacedBlock::at(const Eigen::Vector2d& uv) const {
   return point;
 }
 
-double Assemblage::PlacedBlock::depth(Side side, const Eigen::Vector2d& uv) const {
+double Assemblage::PositionedBlock::depth(Side side, const Eigen::Vector2d& uv) const {
   const auto& row = block.cut[std::size_t(side)];
   if (!row) return std::numeric_limits<double>::infinity();
   return outward(side) * (*row * block.spacing - along_sides(side, uv - shift));
 }
 
-bool Assemblage::PlacedBlock::within_cuts(const Eigen::Vector2d& uv) const {
+bool Assemblage::PositionedBlock::within_cuts(const Eigen::Vector2d& uv) const {
   return std::ranges::all_of(all_sides,
                              [&](Side side) { return depth(side, uv) >= -same * block.spacing; });
 }
 
-bool Assemblage::PlacedBlock::within_boundary(const Eigen::Vector2d& uv) const {
+bool Assemblage::PositionedBlock::within_boundary(const Eigen::Vector2d& uv) const {
   const Eigen::Vector2d own = uv - shift;
   const double margin = -same * block.spacing;
   return inside(block.domain->intervals(Family::u, own.y()), own.x(), margin) ||
          inside(block.domain->intervals(Family::v, own.x()), own.y(), margin);
 }
 
-std::vector<Interval> Assemblage::PlacedBlock::intervals(Family family, double c) const {
+std::vector<Interval> Assemblage::PositionedBlock::intervals(Family family, double c) const {
   const int along = family == Family::u ? 0 : 1;
   const double own = c - shift[1 - along];
   std::vector<Interval> pieces;
@@ -271,7 +275,7 @@ std::vector<Interval> Assemblage::PlacedBlock::intervals(Family family, double c
   return pieces;
 }
 
-std::vector<Eigen::Vector2d> Assemblage::PlacedBlock::row(Side side) const {
+std::vector<Eigen::Vector2d> Assemblage::PositionedBlock::row(Side side) const {
   const auto& cut = block.cut[std::size_t(side)];
   if (!cut) return {};
   const double d = block.spacing, margin = 1e-6 * d;
@@ -290,7 +294,7 @@ std::vector<Eigen::Vector2d> Assemblage::PlacedBlock::row(Side side) const {
   return joints;
 }
 
-std::vector<Eigen::Matrix2Xd> Assemblage::PlacedBlock::outline(int points) const {
+std::vector<Eigen::Matrix2Xd> Assemblage::PositionedBlock::outline(int points) const {
   const Eigen::Matrix2Xd ring = block.domain->boundary(points).colwise() + shift;
   const auto cut_away = [&](Eigen::Index k) {
     return std::ranges::any_of(all_sides, [&](Side side) { return depth(side, ring.col(k)) < 0; });
@@ -325,17 +329,17 @@ double Seam::max_kink_deg() const {
 Result<Assemblage> Assemblage::make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                     double max_gap) {
   if (blocks.empty()) return invalid("got no block, expected at least one");
-  auto places = std::make_shared<Places>();
-  for (Block& block : blocks) places->push_back({std::move(block)});
-  TRY_DO(check_sides(*places, joins));
-  TRY_DO(place_all(*places, joins));
+  auto positioned = std::make_shared<PositionedBlocks>();
+  for (Block& block : blocks) positioned->push_back({std::move(block)});
+  TRY_DO(check_sides(*positioned, joins));
+  TRY_DO(position_all(*positioned, joins));
   Assemblage whole;
   for (const Join& join : joins) {
-    TRY(seam, seam_of(*places, join, max_gap));
+    TRY(seam, seam_of(*positioned, join, max_gap));
     whole.seams_.push_back(std::move(*seam));
   }
-  TRY_DO(check_apart(*places));
-  whole.places_ = std::move(places);
+  TRY_DO(check_apart(*positioned));
+  whole.positioned_ = std::move(positioned);
   whole.joins_ = joins;
   return whole;
 }

@@ -100,11 +100,11 @@ class Assemblage {
   /// `step_mm`. Errors (bad_input): those of its net.
   Result<std::vector<BlockRod>> rods(int index, double step_mm) const;
 
-  struct PlacedBlock;  ///< a block and its position
-  using Places = std::vector<PlacedBlock>;
+  struct PositionedBlock;  ///< a block and its position
+  using PositionedBlocks = std::vector<PositionedBlock>;
 
  private:
-  std::shared_ptr<const Places> places_;
+  std::shared_ptr<const PositionedBlocks> positioned_;
   std::vector<Join> joins_;
   std::vector<Seam> seams_;
 };
@@ -114,7 +114,7 @@ double outward(Side side);
 
 /// A block translated by `shift` in the footprint and by `offset` in space. Arguments (u, v) are
 /// positions in the complete footprint, mm.
-struct Assemblage::PlacedBlock {
+struct Assemblage::PositionedBlock {
   Block block;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();

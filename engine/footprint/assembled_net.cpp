@@ -9,34 +9,35 @@
 namespace gridshell {
 namespace {
 
-using Places = Assemblage::Places;
+using PositionedBlocks = Assemblage::PositionedBlocks;
 
 /// The blocks that contain a point: one, or on a seam those that meet there.
-std::vector<const Assemblage::PlacedBlock*> holders(const Places& places,
-                                                    const Eigen::Vector2d& uv) {
-  std::vector<const Assemblage::PlacedBlock*> held, nearest;
-  for (const auto& place : places)
-    if (place.within_cuts(uv)) held.push_back(&place);
-  if (held.size() < 2) return held;
-  for (const auto* place : held)
-    if (place->within_boundary(uv)) nearest.push_back(place);
-  return nearest.empty() ? held : nearest;
+std::vector<const Assemblage::PositionedBlock*> blocks_at(const PositionedBlocks& positioned,
+                                                          const Eigen::Vector2d& uv) {
+  std::vector<const Assemblage::PositionedBlock*> found, nearest;
+  for (const auto& one : positioned)
+    if (one.within_cuts(uv)) found.push_back(&one);
+  if (found.size() < 2) return found;
+  for (const auto* one : found)
+    if (one->within_boundary(uv)) nearest.push_back(one);
+  return nearest.empty() ? found : nearest;
 }
 
 class AssembledNet final : public ChebyshevNet {
  public:
-  explicit AssembledNet(std::shared_ptr<const Places> places) : places_(std::move(places)) {}
+  explicit AssembledNet(std::shared_ptr<const PositionedBlocks> positioned)
+      : positioned_(std::move(positioned)) {}
 
   Result<NetPoint> at(double u, double v) const override {
     const Eigen::Vector2d uv(u, v);
-    const auto held = holders(*places_, uv);
-    if (held.empty()) return invalid("no block contains (u, v) = ({:g}, {:g}) mm", u, v);
+    const auto found = blocks_at(*positioned_, uv);
+    if (found.empty()) return invalid("no block contains (u, v) = ({:g}, {:g}) mm", u, v);
     NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-    for (const auto* place : held) {
-      const auto point = place->at(uv);
+    for (const auto* one : found) {
+      const auto point = one->at(uv);
       if (!point) return point;
-      if (held.size() == 1) return point;
-      const double fraction = 1.0 / double(held.size());
+      if (found.size() == 1) return point;
+      const double fraction = 1.0 / double(found.size());
       middle.position += fraction * point->position;
       middle.tangent_u += point->tangent_u;
       middle.tangent_v += point->tangent_v;
@@ -50,7 +51,7 @@ class AssembledNet final : public ChebyshevNet {
   }
 
  private:
-  std::shared_ptr<const Places> places_;
+  std::shared_ptr<const PositionedBlocks> positioned_;
 };
 
 /// Joins open polylines to a ring: after each the one whose first point is nearest to its end.
@@ -86,17 +87,18 @@ Eigen::Matrix2Xd evenly(const std::vector<Eigen::Vector2d>& ring, int points) {
 
 class AssembledDomain final : public Domain {
  public:
-  explicit AssembledDomain(std::shared_ptr<const Places> places) : places_(std::move(places)) {}
+  explicit AssembledDomain(std::shared_ptr<const PositionedBlocks> positioned)
+      : positioned_(std::move(positioned)) {}
 
   std::vector<Interval> intervals(Family family, double c) const override {
     std::vector<Interval> pieces;
-    for (const auto& place : *places_)
-      for (const Interval& piece : place.intervals(family, c)) pieces.push_back(piece);
+    for (const auto& one : *positioned_)
+      for (const Interval& piece : one.intervals(family, c)) pieces.push_back(piece);
     std::ranges::sort(pieces,
                       [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
     // a rod that ends on a seam continues in the next block
     std::vector<Interval> rods;
-    const double near = 1e-9 * places_->front().block.spacing;
+    const double near = 1e-9 * positioned_->front().block.spacing;
     for (const Interval& piece : pieces) {
       if (!rods.empty() && piece.begin <= rods.back().end + near)
         rods.back().end = std::max(rods.back().end, piece.end);
@@ -108,49 +110,49 @@ class AssembledDomain final : public Domain {
 
   Eigen::Matrix2Xd boundary(int points) const override {
     std::vector<Eigen::Matrix2Xd> pieces;
-    for (const auto& place : *places_)
-      for (auto& piece : place.outline(4 * points)) pieces.push_back(std::move(piece));
+    for (const auto& one : *positioned_)
+      for (auto& piece : one.outline(4 * points)) pieces.push_back(std::move(piece));
     return evenly(linked(std::move(pieces)), points);
   }
 
   double reach() const override {
     double reach = 0;
-    for (const auto& place : *places_)
-      reach = std::max(reach, place.block.domain->reach() + place.shift.cwiseAbs().maxCoeff());
+    for (const auto& one : *positioned_)
+      reach = std::max(reach, one.block.domain->reach() + one.shift.cwiseAbs().maxCoeff());
     return reach;
   }
 
  private:
-  std::shared_ptr<const Places> places_;
+  std::shared_ptr<const PositionedBlocks> positioned_;
 };
 
 }  // namespace
 
 std::shared_ptr<const ChebyshevNet> Assemblage::net() const {
-  return std::make_shared<AssembledNet>(places_);
+  return std::make_shared<AssembledNet>(positioned_);
 }
 
 std::unique_ptr<Domain> Assemblage::domain() const {
-  return std::make_unique<AssembledDomain>(places_);
+  return std::make_unique<AssembledDomain>(positioned_);
 }
 
 Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double fade) const {
-  auto points = points_on(AssembledNet(places_), uv);
+  auto points = points_on(AssembledNet(positioned_), uv);
   if (!points) return points;
   for (Eigen::Index k = 0; k < uv.cols(); ++k) {
-    const auto held = holders(*places_, uv.col(k));
-    if (held.size() != 1) continue;
+    const auto found = blocks_at(*positioned_, uv.col(k));
+    if (found.size() != 1) continue;
     for (const Join& join : joins_) {
-      const bool first = held.front() == &(*places_)[join.first.block];
-      if (!first && held.front() != &(*places_)[join.second.block]) continue;
+      const bool first = found.front() == &(*positioned_)[join.first.block];
+      if (!first && found.front() != &(*positioned_)[join.second.block]) continue;
       const BlockSide own = first ? join.first : join.second;
-      const PlacedBlock& other = (*places_)[first ? join.second.block : join.first.block];
+      const PositionedBlock& other = (*positioned_)[first ? join.second.block : join.first.block];
       // both nets are evaluated at the nearest point of the seam
-      const double t = held.front()->depth(own.side, uv.col(k)) / fade;
+      const double t = found.front()->depth(own.side, uv.col(k)) / fade;
       const bool sum = own.side == Side::east || own.side == Side::west;
       const Eigen::Vector2d across = 0.5 * Eigen::Vector2d(sum ? 1 : -1, 1) * outward(own.side);
       const Eigen::Vector2d on_seam = uv.col(k) + t * fade * across;
-      const auto a = held.front()->at(on_seam), b = other.at(on_seam);
+      const auto a = found.front()->at(on_seam), b = other.at(on_seam);
       // past the end of a seam one of the nets may fold: there is no gap to close
       if (!(t < 1) || !a || !b) continue;
       points->col(k) += 0.5 * (1 - t) * (1 - t) * (1 + 2 * t) * (b->position - a->position);
@@ -159,20 +161,20 @@ Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double f
   return points;
 }
 
-int Assemblage::blocks() const { return static_cast<int>(places_->size()); }
+int Assemblage::blocks() const { return static_cast<int>(positioned_->size()); }
 
-const Block& Assemblage::block(int index) const { return (*places_)[index].block; }
+const Block& Assemblage::block(int index) const { return (*positioned_)[index].block; }
 
 Result<std::vector<BlockRod>> Assemblage::rods(int index, double step) const {
-  const PlacedBlock& place = (*places_)[index];
-  const Block& block = place.block;
+  const PositionedBlock& one = (*positioned_)[index];
+  const Block& block = one.block;
   std::vector<BlockRod> rods;
   const int last =
-      static_cast<int>(std::ceil(AssembledDomain(places_).reach() / block.spacing)) + 1;
+      static_cast<int>(std::ceil(AssembledDomain(positioned_).reach() / block.spacing)) + 1;
   for (const Family family : {Family::u, Family::v}) {
     for (int k = -last; k <= last; ++k) {
       const double line = line_of(block.placement, k, block.spacing);
-      for (const Interval& piece : place.intervals(family, line)) {
+      for (const Interval& piece : one.intervals(family, line)) {
         const int steps =
             std::max(1, static_cast<int>(std::ceil((piece.end - piece.begin) / step)));
         BlockRod rod{Eigen::Matrix3Xd(3, steps + 1), Eigen::Matrix2Xd(2, steps + 1)};
@@ -180,7 +182,7 @@ Result<std::vector<BlockRod>> Assemblage::rods(int index, double step) const {
           const double along = piece.begin + (piece.end - piece.begin) * n / steps;
           rod.flat.col(n) =
               family == Family::u ? Eigen::Vector2d(along, line) : Eigen::Vector2d(line, along);
-          TRY(point, place.at(rod.flat.col(n)));
+          TRY(point, one.at(rod.flat.col(n)));
           rod.net.col(n) = point->position;
         }
         rods.push_back(std::move(rod));

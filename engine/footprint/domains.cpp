@@ -197,7 +197,7 @@ class Part final : public Domain {
     bool was_inside = false;
     // points up to one step past the last node that is inside may be inside
     for (int k = -reach_ - 2; k <= reach_ + 2; ++k) {
-      const bool inside = holds(line.at(k * step()));
+      const bool inside = contains(line.at(k * step()));
       if (inside && !was_inside) pieces.push_back({crossing(line, k, -1), 0});
       if (was_inside && !inside) pieces.back().end = crossing(line, k - 1, 1);
       was_inside = inside;
@@ -210,7 +210,7 @@ class Part final : public Domain {
     for (int k = 0; k < points; ++k) {
       const Line ray = ray_at(2 * M_PI * k / points);
       int last = 0;
-      while (holds(ray.at((last + 1) * step()))) ++last;
+      while (contains(ray.at((last + 1) * step()))) ++last;
       ring.col(k) = ray.at(crossing(ray, last, 1));
     }
     return ring;
@@ -225,7 +225,7 @@ class Part final : public Domain {
     bool was_inside = true;
     // twice as far as along an axis: a ray may run along the diagonal
     for (int k = 1; k <= 2 * reach_ + 2; ++k) {
-      const bool inside = holds(ray.at(k * step()));
+      const bool inside = contains(ray.at(k * step()));
       found += int(was_inside && !inside);
       was_inside = inside;
     }
@@ -250,7 +250,7 @@ class Part final : public Domain {
   }
 
   /// Whether a point is inside: the function is below zero, and a neighbouring node is inside.
-  bool holds(const Eigen::Vector2d& uv) const {
+  bool contains(const Eigen::Vector2d& uv) const {
     const int i = int(std::lround(uv.x() / step())), j = int(std::lround(uv.y() / step()));
     bool near_inside = false;
     for (int b = -1; b <= 1; ++b)

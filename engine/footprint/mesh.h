@@ -64,8 +64,8 @@ struct RodMesh {
 
   int nodes() const { return int(flat.cols()); }
   /// Number of ghosts and supports.
-  int beside_rods() const { return ghosts + int(springs.size()); }
-  int rod_nodes() const { return nodes() - beside_rods(); }
+  int nodes_off_rods() const { return ghosts + int(springs.size()); }
+  int rod_nodes() const { return nodes() - nodes_off_rods(); }
   /// The joint at a node, for an eccentric joint at both its nodes; -1: there is none.
   int joint_of(int node) const;
   bool is_ghost(int node) const { return node >= rod_nodes(); }

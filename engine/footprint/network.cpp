@@ -148,11 +148,12 @@ void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, Footpr
 }
 
 /// The constraint of an end; rod r starts at 2 r and ends at 2 r + 1.
-Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
+Result<RodEnd> constraint_of(const RodNetwork& network, const Roles& roles, int end) {
   const std::vector<int>& rod = network.rods[std::size_t(end / 2)];
   const RodEnd kind = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
-  const auto own = network.holds.find(end);
-  if (own == network.holds.end()) return kind == RodEnd::pinned ? network.hold : kind;
+  const auto own = network.end_constraints.find(end);
+  if (own == network.end_constraints.end())
+    return kind == RodEnd::pinned ? network.end_constraint : kind;
   if (kind == RodEnd::pinned) return own->second;
   return invalid("rods[{}]: its {} {}, a constraint is given only of an end at a support", end / 2,
                  end % 2 == 0 ? "begin" : "end",
@@ -192,52 +193,52 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
         "alone with points inside",
         r);
   }
-  TRY(begin, hold_of(network, roles, int(2 * r)));
-  TRY(end, hold_of(network, roles, int(2 * r) + 1));
+  TRY(begin, constraint_of(network, roles, int(2 * r)));
+  TRY(end, constraint_of(network, roles, int(2 * r) + 1));
   rod.begin = *begin;
   rod.end = *end;
   return rod;
 }
 
 /// A support of a piece: a position, and the directions in which it is fixed.
-struct HeldPlace {
+struct FixedPoint {
   Eigen::Vector3d at;
   Eigen::Vector3d along;  ///< for x, y and z: 1 if it is fixed in that direction, else 0
 };
 
 /// The directions in which a support fixes its point: all, or those in which its spring has a
 /// stiffness.
-Eigen::Vector3d held_along(const RodNetwork& network, int point) {
+Eigen::Vector3d fixed_along(const RodNetwork& network, int point) {
   const auto spring = network.springs.find(point);
   if (spring == network.springs.end()) return Eigen::Vector3d::Ones();
   return (spring->second.array() > 0).cast<double>();
 }
 
 /// Whether the supports are not all on one line.
-bool off_a_line(const std::vector<HeldPlace>& places) {
-  if (places.empty()) return false;
-  const Eigen::Vector3d first = places.front().at;
+bool off_a_line(const std::vector<FixedPoint>& supports) {
+  if (supports.empty()) return false;
+  const Eigen::Vector3d first = supports.front().at;
   Eigen::Vector3d far = first;
-  for (const HeldPlace& support : places)
+  for (const FixedPoint& support : supports)
     if ((support.at - first).norm() > (far - first).norm()) far = support.at;
   const Eigen::Vector3d chord = far - first;
-  return std::ranges::any_of(places, [&](const HeldPlace& support) {
+  return std::ranges::any_of(supports, [&](const FixedPoint& support) {
     return area(chord, support.at - first) > on_a_line * chord.squaredNorm();
   });
 }
 
 /// Whether supports fix a piece against every small displacement and rotation: the six columns of
 /// (e, p x e/L) over all positions p and fixed directions e are independent.
-bool hold_all(const std::vector<HeldPlace>& places) {
+bool is_fixed_by(const std::vector<FixedPoint>& supports) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const HeldPlace& support : places) middle += support.at / double(places.size());
+  for (const FixedPoint& support : supports) middle += support.at / double(supports.size());
   double reach = 0;
-  for (const HeldPlace& support : places) reach = std::max(reach, (support.at - middle).norm());
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * Eigen::Index(places.size()), 6);
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const Eigen::Vector3d arm = (places[k].at - middle) / reach;
+  for (const FixedPoint& support : supports) reach = std::max(reach, (support.at - middle).norm());
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * Eigen::Index(supports.size()), 6);
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    const Eigen::Vector3d arm = (supports[k].at - middle) / reach;
     for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d direction = places[k].along[axis] * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector3d direction = supports[k].along[axis] * Eigen::Vector3d::Unit(axis);
       motions.row(3 * Eigen::Index(k) + axis) << direction.transpose(),
           arm.cross(direction).transpose();
     }
@@ -248,36 +249,38 @@ bool hold_all(const std::vector<HeldPlace>& places) {
 /// Adds the directions that a rod's ends prescribe, as fixed positions: a second one along the rod
 /// and, if the twist angle is prescribed too, a third one at its side.
 void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod& rod,
-                    std::vector<HeldPlace>& places) {
+                    std::vector<FixedPoint>& supports) {
   const std::vector<int>& points = network.rods[r];
   const std::size_t last = points.size() - 1;
   const std::tuple<RodEnd, int, int> ends[] = {{rod.begin, points[0], points[1]},
                                                {rod.end, points[last], points[last - 1]}};
-  for (const auto& [hold, from, to] : ends) {
-    if (!fixes_direction(hold)) continue;
+  for (const auto& [kind, from, to] : ends) {
+    if (!fixes_direction(kind)) continue;
     const Eigen::Vector3d at = network.points.col(from), chord = network.points.col(to) - at;
-    places.push_back({at + chord, Eigen::Vector3d::Ones()});
-    if (hold == RodEnd::clamped)
-      places.push_back({at + chord.norm() * chord.unitOrthogonal(), Eigen::Vector3d::Ones()});
+    supports.push_back({at + chord, Eigen::Vector3d::Ones()});
+    if (kind == RodEnd::clamped)
+      supports.push_back({at + chord.norm() * chord.unitOrthogonal(), Eigen::Vector3d::Ones()});
   }
 }
 
 /// Whether a piece is fixed in all directions at two points at least. A single rod may then turn
 /// about the line through them, which does not change its shape.
-bool fixed_twice(const std::vector<HeldPlace>& places) {
-  const auto fixes = [](const HeldPlace& support) {
+bool fixed_twice(const std::vector<FixedPoint>& supports) {
+  const auto fixes = [](const FixedPoint& support) {
     return support.along == Eigen::Vector3d::Ones();
   };
-  return std::ranges::all_of(places, fixes) &&
-         std::ranges::any_of(places, [&](const auto& other) { return other.at != places[0].at; });
+  return std::ranges::all_of(supports, fixes) &&
+         std::ranges::any_of(supports,
+                             [&](const auto& other) { return other.at != supports[0].at; });
 }
 
 /// Checks that every connected piece has supports against translation and rotation.
-Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
+Result<void> check_supports(const RodNetwork& network, const Roles& roles,
+                            const Footprint& footprint) {
   UnionFind pieces(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : rod.joints) pieces.join(joint, rod.joints.front());
-  std::map<int, std::vector<HeldPlace>> supports;
+  std::map<int, std::vector<FixedPoint>> supports;
   std::map<int, std::size_t> first_rod, rods_of;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const int piece = pieces.find(footprint.rods[r].joints.front());
@@ -285,7 +288,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
     ++rods_of[piece];
     for (const int point : network.rods[r])
       if (roles.is_fixed(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
-        supports[piece].push_back({network.points.col(point), held_along(network, point)});
+        supports[piece].push_back({network.points.col(point), fixed_along(network, point)});
     add_directions(network, r, footprint.rods[r], supports[piece]);
   }
   for (const auto& [piece, rod] : first_rod) {
@@ -297,7 +300,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
           "a little sag and a weak spring across it at one of its points: "
           "{{\"point\": {}, \"spring_N_per_mm\": [0, 0.001, 0]}} among the supports",
           rod, network.rods[rod][network.rods[rod].size() / 2]);
-    if (!hold_all(supports[piece]))
+    if (!is_fixed_by(supports[piece]))
       return invalid(
           "rods[{}] and what is joined to it: supported by springs along too few directions, and "
           "would move or turn freely",
@@ -358,7 +361,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
     footprint.rods.push_back(std::move(*rod));
     made.ends.insert(made.ends.end(), {network.rods[r].front(), network.rods[r].back()});
   }
-  TRY_DO(check_held(network, roles, footprint));
+  TRY_DO(check_supports(network, roles, footprint));
   footprint.spacing = spacing_of(footprint);
   for (const Placement placement : {Placement::half, Placement::on_axis})
     if (footprint.cells.empty() && !footprint.in_space()) name_as_grid(made, placement);

@@ -21,9 +21,9 @@ struct RodNetwork {
   std::set<int> joined{};       ///< points at which the ends of several rods are one joint
   /// For each point whose support is on a spring: the stiffness along x, y, z, N/mm.
   std::map<int, Eigen::Vector3d> springs{};
-  RodEnd hold = RodEnd::pinned;  ///< what a support prescribes at a rod's end
+  RodEnd end_constraint = RodEnd::pinned;  ///< what a support prescribes at a rod's end
   /// What the support of a single end prescribes instead; rod r starts at 2r and ends at 2r + 1.
-  std::map<int, RodEnd> holds{};
+  std::map<int, RodEnd> end_constraints{};
 };
 
 /// A footprint, with the point of the network of each end and of each fixed joint.
@@ -36,7 +36,8 @@ struct NetworkFootprint {
 /// The footprint of a network. The rods through a point decide what it becomes:
 ///   - inner point of a rod, also on another rod or supported: a joint, fixed if supported;
 ///   - inner point of one rod that is not straight there: a joint of this rod alone;
-///   - end of rods only: an edge point for each of them, fixed as `hold` or `holds` says;
+///   - end of rods only: an edge point for each of them, fixed as `end_constraint` or
+///   `end_constraints` says;
 ///   - end of rods only, free or on a spring: the end of a rod, or a joint of several ends;
 ///   - end of several rods, listed in `joined`: a joint of their ends, fixed if supported;
 ///   - end of a rod at an inner point of another: the rod is joined to that joint.

@@ -24,9 +24,9 @@ namespace {
 
 constexpr double same_mm = 1e-3;  // distance up to which positions are equal
 
-using Place = std::array<long long, 3>;
+using RoundedPosition = std::array<long long, 3>;
 
-Place place_of(const Eigen::Vector3d& p) {
+RoundedPosition rounded(const Eigen::Vector3d& p) {
   return {std::llround(p.x() / same_mm), std::llround(p.y() / same_mm),
           std::llround(p.z() / same_mm)};
 }
@@ -54,17 +54,17 @@ std::optional<std::vector<int>> with_supports(const RodMesh& mesh, const Eigen::
 
 /// The image of each node; empty if a node is not mapped to the position of a node.
 std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
-  std::map<Place, int> node_at;
+  std::map<RoundedPosition, int> node_at;
   // supports of springs have the positions of other nodes, so they are added at the end
-  const int placed = mesh.nodes() - int(mesh.springs.size());
-  for (int node = 0; node < placed; ++node) node_at[place_of(drawn(mesh, node))] = node;
+  const int without_supports = mesh.nodes() - int(mesh.springs.size());
+  for (int node = 0; node < without_supports; ++node) node_at[rounded(drawn(mesh, node))] = node;
   std::vector<int> image(std::size_t(mesh.nodes()));
   std::iota(image.begin(), image.end(), 0);
   if (map.isIdentity(0)) return image;
   // nodes with the same position cannot be distinguished
-  if (int(node_at.size()) < placed) return std::nullopt;
-  for (int node = 0; node < placed; ++node) {
-    const auto [u, v, w] = place_of(map * drawn(mesh, node));
+  if (int(node_at.size()) < without_supports) return std::nullopt;
+  for (int node = 0; node < without_supports; ++node) {
+    const auto [u, v, w] = rounded(map * drawn(mesh, node));
     int found = -1;
     // round-off may give a neighbour of the expected position
     const long long dw_most = mesh.height.size() > 0 ? 1 : 0;
@@ -82,12 +82,12 @@ std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matri
 }  // namespace
 
 std::vector<int> fixed_nodes(const RodMesh& mesh) {
-  std::vector<int> held = mesh.fixed_joints;
+  std::vector<int> fixed = mesh.fixed_joints;
   for (int k = 0; k < mesh.edge_points; ++k)
-    if (is_fixed(mesh.end_of(k))) held.push_back(mesh.joints + k);
+    if (is_fixed(mesh.end_of(k))) fixed.push_back(mesh.joints + k);
   for (int node = mesh.rod_nodes(); node < mesh.rod_nodes() + mesh.ghosts; ++node)
-    held.push_back(node);
-  return held;
+    fixed.push_back(node);
+  return fixed;
 }
 
 std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
@@ -129,11 +129,11 @@ Eigen::Matrix3Xd MeshSymmetry::of(const Eigen::Matrix3Xd& x) const {
 }
 
 std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends) {
-  const std::vector<int> held = fixed_nodes(mesh);
-  std::vector<int> sorted = held;
+  const std::vector<int> fixed = fixed_nodes(mesh);
+  std::vector<int> sorted = fixed;
   std::ranges::sort(sorted);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const int node : held) centre.z() += ends(2, node) / double(held.size());
+  for (const int node : fixed) centre.z() += ends(2, node) / double(fixed.size());
   std::vector<MeshSymmetry> found;
   for (std::size_t k = 0; k < square_symmetries().size(); ++k) {
     MeshSymmetry symmetry{int(k), square_symmetries()[k], centre, {}};
@@ -141,13 +141,13 @@ std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix
     if (!image) continue;
     symmetry.image = std::move(*image);
     // fixed nodes must be mapped to fixed nodes
-    if (!std::ranges::all_of(held, [&](int node) {
+    if (!std::ranges::all_of(fixed, [&](int node) {
           return std::ranges::binary_search(sorted, symmetry.image[std::size_t(node)]);
         }))
       continue;
     const Eigen::Matrix3Xd moved = symmetry.of(ends.leftCols(Eigen::Index(symmetry.image.size())));
     const bool same = std::ranges::all_of(
-        held, [&](int node) { return (moved.col(node) - ends.col(node)).norm() < same_mm; });
+        fixed, [&](int node) { return (moved.col(node) - ends.col(node)).norm() < same_mm; });
     if (same) found.push_back(std::move(symmetry));
   }
   return found;

@@ -20,17 +20,17 @@ double distance(const Coordinates& a, const Coordinates& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-Coordinates mean_of(const std::vector<int>& points, const Points& places) {
+Coordinates mean_of(const std::vector<int>& points, const Points& positions) {
   Coordinates mean(3, 0);
   for (const int point : points)
     for (std::size_t k = 0; k < 3; ++k)
-      mean[k] += places[std::size_t(point)][k] / double(points.size());
+      mean[k] += positions[std::size_t(point)][k] / double(points.size());
   return mean;
 }
 
 /// For every joint the length of the shortest segment of a rod at one of its points.
-std::vector<double> shortest_beside(const NetworkData& network, const std::vector<int>& joint_of,
-                                    std::size_t joints) {
+std::vector<double> shortest_at_joints(const NetworkData& network, const std::vector<int>& joint_of,
+                                       std::size_t joints) {
   std::vector<double> shortest(joints, std::numeric_limits<double>::infinity());
   for (const std::vector<int>& rod : network.rods)
     for (std::size_t k = 1; k < rod.size(); ++k) {
@@ -103,7 +103,7 @@ Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const 
 
 /// Checks that no point is moved further than a fraction of the rods' segments at its joint.
 Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const {
-  const auto shortest = shortest_beside(network_, joint_of, joints_.size());
+  const auto shortest = shortest_at_joints(network_, joint_of, joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Coordinates mean = mean_of(joints_[j].points, network_.points);
     for (const int point : joints_[j].points) {

@@ -23,8 +23,8 @@ constexpr double straight_deg = 0.1;
 
 /// Angle by which a polyline turns at its middle point, rad.
 double turn_at(const NetworkData& network, int before, int at, int after) {
-  const Eigen::Vector3d in = place_of(network, at) - place_of(network, before),
-                        out = place_of(network, after) - place_of(network, at);
+  const Eigen::Vector3d in = position_of(network, at) - position_of(network, before),
+                        out = position_of(network, after) - position_of(network, at);
   return std::atan2(in.cross(out).norm(), in.dot(out));
 }
 
@@ -46,12 +46,12 @@ std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
 
 /// For each end the end of another line that continues it; -1: none.
 Result<std::vector<int>> continuations(const NetworkData& network,
-                                       const std::vector<std::string>& places) {
+                                       const std::vector<std::string>& locations) {
   std::vector<int> partner(2 * network.rods.size(), -1);
   for (const auto& [point, ends] : ends_at_points(network)) {
     if (ends.size() > most_ends)
       return invalid("{}: got an end at that of {} other lines, expected at most {}",
-                     places[std::size_t(ends.back().number / 2)], ends.size() - 1, most_ends);
+                     locations[std::size_t(ends.back().number / 2)], ends.size() - 1, most_ends);
     std::vector<std::tuple<double, int, int>> pairs;
     for (std::size_t a = 0; a < ends.size(); ++a)
       for (std::size_t b = a + 1; b < ends.size(); ++b)
@@ -81,7 +81,7 @@ std::size_t pieces_of(const NetworkData& network, const std::vector<int>& rod, s
 }  // namespace
 
 Result<int> NetworkBuilder::join_in_line() {
-  TRY(partner, continuations(network_, places_));
+  TRY(partner, continuations(network_, locations_));
   const int met = int(std::ranges::count_if(*partner, [](int other) { return other >= 0; }) / 2);
   if (met > 0) chain(*partner);
   return met;
@@ -90,11 +90,11 @@ Result<int> NetworkBuilder::join_in_line() {
 /// Joins lines to rods; `partner` has for each end the end that continues it; -1: none.
 void NetworkBuilder::chain(const std::vector<int>& partner) {
   std::vector<std::vector<int>> rods;
-  std::vector<std::string> places;
+  std::vector<std::string> locations;
   std::vector<char> taken(network_.rods.size(), 0);
   const auto follow = [&](std::size_t first, bool reversed) {
     std::vector<int> chain;
-    places.push_back(places_[first]);
+    locations.push_back(locations_[first]);
     for (std::size_t rod = first; taken[rod] == 0;) {
       taken[rod] = 1;
       std::vector<int> points = network_.rods[rod];
@@ -115,7 +115,7 @@ void NetworkBuilder::chain(const std::vector<int>& partner) {
     if (taken[r] == 0) follow(r, false);
   network_.rods = std::move(rods);
   network_.diameters.assign(network_.rods.size(), 0);
-  places_ = std::move(places);
+  locations_ = std::move(locations);
 }
 
 void NetworkBuilder::thin_out() {

@@ -49,8 +49,8 @@ std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch
   const Eigen::Vector3d normal = vector_a.cross(vector_b);
   if (!(normal.norm() > 1e-9 * a.length() * b.length())) return std::nullopt;
   // solved in the plane of the two axes across the one nearest to their normal: z for flat drawings
-  const auto beyond = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
-  const int view = !beyond(0) && !beyond(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
+  const auto larger = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
+  const int view = !larger(0) && !larger(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
   const int x = (view + 1) % 3, y = (view + 2) % 3;
   const double s = (apart[x] * vector_b[y] - apart[y] * vector_b[x]) / normal[view],
                t = (apart[x] * vector_a[y] - apart[y] * vector_a[x]) / normal[view];
@@ -66,7 +66,7 @@ std::vector<Stretch> stretches_of(const NetworkData& network) {
   for (std::size_t r = 0; r < network.rods.size(); ++r)
     for (std::size_t k = 1; k < network.rods[r].size(); ++k) {
       const int from = network.rods[r][k - 1], to = network.rods[r][k];
-      all.push_back({r, k - 1, from, to, place_of(network, from), place_of(network, to)});
+      all.push_back({r, k - 1, from, to, position_of(network, from), position_of(network, to)});
     }
   std::ranges::sort(all, {}, &Stretch::low);
   return all;
@@ -100,9 +100,9 @@ double overlap(const Stretch& a, const Stretch& b) {
 }
 
 /// The point of a segment nearest to a position, as a fraction of its length.
-double nearest_fraction(const Stretch& stretch, const Eigen::Vector3d& place) {
+double nearest_fraction(const Stretch& stretch, const Eigen::Vector3d& position) {
   const Eigen::Vector3d vector = stretch.vector();
-  return std::clamp((place - stretch.begin).dot(vector) / vector.squaredNorm(), 0.0, 1.0);
+  return std::clamp((position - stretch.begin).dot(vector) / vector.squaredNorm(), 0.0, 1.0);
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
       if (rods[std::size_t(end)] != 1) continue;
-      std::vector<double>& place = network_.points[std::size_t(end)];
-      const Eigen::Vector3d at = place_of(network_, end);
+      std::vector<double>& coordinates = network_.points[std::size_t(end)];
+      const Eigen::Vector3d at = position_of(network_, end);
       const Stretch* nearest = nullptr;
       double least = near_mm_;
       for (const Stretch& one : all) {
@@ -139,7 +139,7 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
       if (!nearest) continue;
       const double fraction = nearest_fraction(*nearest, at);
       const Eigen::Vector3d foot = nearest->at(fraction);
-      place = {foot.x(), foot.y(), foot.z()};
+      coordinates = {foot.x(), foot.y(), foot.z()};
       cuts.push_back({nearest->rod, nearest->first, fraction, end});
     }
   put(std::move(cuts), network_.rods);
@@ -159,13 +159,14 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
       if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
       if (const double length = overlap(a, b); length > near_mm_)
         return invalid("{}: got a rod on the rod at {}, over {:.4g} mm, expected one of them",
-                       places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
+                       locations_[std::max(a.rod, b.rod)], locations_[std::min(a.rod, b.rod)],
+                       length);
       if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
       const auto met = meeting(a, b, near_mm_);
       if (!met) continue;
       const auto [s, t] = *met;
       const Eigen::Vector3d there = a.at(s);
-      TRY(point, place({there.x(), there.y(), there.z()}, name));
+      TRY(point, find_or_add_point({there.x(), there.y(), there.z()}, name));
       if (*point != a.from && *point != a.to) cuts.push_back({a.rod, a.first, s, *point});
       if (*point != b.from && *point != b.to) cuts.push_back({b.rod, b.first, t, *point});
     }

@@ -47,7 +47,7 @@ class Marks {
       for (const Eigen::Vector3d& point : one->points) box_.extend(point);
   }
 
-  bool holds(const DrawnEntity& circle) const {
+  bool contains(const DrawnEntity& circle) const {
     constexpr double small = 0.1;
     if (circle.kind != "CIRCLE" || circle.points.empty()) return false;
     const double radius = (circle.points.front() - circle.centre).norm();
@@ -121,7 +121,7 @@ Result<std::vector<const DrawnEntity*>> choose(const DxfDrawing& drawing, const 
   const Marks marks(chosen);
   std::vector<const DrawnEntity*> rods;
   for (const DrawnEntity* one : chosen)
-    if (!by_layer && marks.holds(*one))
+    if (!by_layer && marks.contains(*one))
       left_out.add(" that mark points of rods", one->kind);
     else
       rods.push_back(one);
@@ -267,7 +267,7 @@ Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string&
   const auto read =
       ply ? each_ply_item(bytes, name,
                           [&](const PlyItem& item) -> Result<void> {
-                            const auto at = item.place(name);
+                            const auto at = item.location(name);
                             if (item.element == "vertex")
                               return add_point({item.xyz.x(), item.xyz.y(), item.xyz.z()}, at);
                             if (item.element == "face") return edges.add_face(item.corners, at);
@@ -312,17 +312,17 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
     return invalid("{}: got no rods, expected at least one{}", name, left_out.text());
   NetworkBuilder builder(options.join_mm);
   for (const DrawnEntity* one : *rods) {
-    const auto place = fmt::format("{}:{}", name, one->line);
+    const auto where = fmt::format("{}:{}", name, one->line);
     std::vector<int> points;
     for (std::size_t k = 0; k < one->points.size(); ++k) {
       const Eigen::Vector3d xyz = unit * one->points[k];
-      TRY(point, builder.place({xyz.x(), xyz.y(), xyz.z()}, place));
+      TRY(point, builder.find_or_add_point({xyz.x(), xyz.y(), xyz.z()}, where));
       if (one->sampled[k]) builder.mark_sample(*point);
       points.push_back(*point);
     }
     if (one->closed && !points.empty() && points.back() != points.front())
       points.push_back(points.front());
-    TRY_DO(builder.add_rod(std::move(points), 0, place));
+    TRY_DO(builder.add_rod(std::move(points), 0, where));
   }
   return finish(builder, name, rods->size(), options, report);
 }

@@ -25,8 +25,8 @@ std::string coordinates_error(const std::vector<double>& xyz) {
 }  // namespace
 
 int NetworkBuilder::known(const std::vector<double>& xyz) const {
-  const auto cell = [&](std::size_t k, long beside) {
-    return long(std::floor(xyz[k] / near_mm_)) + beside;
+  const auto cell = [&](std::size_t k, long step) {
+    return long(std::floor(xyz[k] / near_mm_)) + step;
   };
   for (long i = -1; i <= 1; ++i)
     for (long j = -1; j <= 1; ++j)
@@ -45,18 +45,19 @@ int NetworkBuilder::known(const std::vector<double>& xyz) const {
 Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std::string& at) {
   if (const auto wrong = coordinates_error(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
   if (points() == most) return invalid("{}: expected at most {} points", at, most);
-  const std::vector<double> place{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
-  const int number = int(points()), same = known(place);
+  const std::vector<double> coordinates{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
+  const int number = int(points()), same = known(coordinates);
   same_as_.push_back(same >= 0 ? same : number);
-  network_.points.push_back(place);
+  network_.points.push_back(coordinates);
   if (same < 0)
-    at_[{long(std::floor(place[0] / near_mm_)), long(std::floor(place[1] / near_mm_)),
-         long(std::floor(place[2] / near_mm_))}]
+    at_[{long(std::floor(coordinates[0] / near_mm_)), long(std::floor(coordinates[1] / near_mm_)),
+         long(std::floor(coordinates[2] / near_mm_))}]
         .push_back(number);
   return {};
 }
 
-Result<int> NetworkBuilder::place(const std::vector<double>& xyz, const std::string& at) {
+Result<int> NetworkBuilder::find_or_add_point(const std::vector<double>& xyz,
+                                              const std::string& at) {
   if (const auto wrong = coordinates_error(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
   const int same = known({xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0});
   if (same >= 0) return same;
@@ -90,7 +91,7 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
   diameters_ = diameters_ || diameter_mm > 0;
   network_.rods.push_back(std::move(points));
   network_.diameters.push_back(diameter_mm);
-  places_.push_back(at);
+  locations_.push_back(at);
   return {};
 }
 
@@ -170,15 +171,15 @@ std::string network_error(const NetworkData& network) {
                  ? std::string("got two laws for all joints, expected one")
                  : fmt::format("got two laws for the joint at point {}, expected one", row[0]);
   }
-  std::set<std::pair<double, double>> held;
-  for (const auto& row : network.holds) {
+  std::set<std::pair<double, double>> constrained;
+  for (const auto& row : network.end_constraints) {
     if (row.size() != 3 || !(row[1] == 0 || row[1] == 1) ||
         !(row[2] == 0 || row[2] == 1 || row[2] == 2))
       return "`holds`: expected rows [rod, 0 (begin) or 1 (end), 0 (pinned), 1 (tangent) or 2 "
              "(clamped)]";
     if (!(row[0] >= 0 && row[0] < double(rods) && row[0] == std::floor(row[0])))
       return fmt::format("a constraint of rod {:g} of {}", row[0], rods);
-    if (!held.insert({row[0], row[1]}).second)
+    if (!constrained.insert({row[0], row[1]}).second)
       return fmt::format("rods[{}] has two constraints at one end", row[0]);
   }
   std::set<int> freed;

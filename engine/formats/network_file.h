@@ -65,7 +65,7 @@ Result<NetworkData> read_network(std::string_view bytes, const std::string& name
                                  const NetworkOptions& options = {}, FileReport* report = nullptr);
 
 /// Position of a point of a network, mm.
-inline Eigen::Vector3d place_of(const NetworkData& network, int point) {
+inline Eigen::Vector3d position_of(const NetworkData& network, int point) {
   const auto& at = network.points[std::size_t(point)];
   return {at[0], at[1], at[2]};
 }
@@ -111,9 +111,9 @@ class NetworkBuilder {
   /// Index of the point at a position of two or three coordinates, which is added if it is new.
   /// Errors (bad_input): another number of coordinates, a coordinate that is not finite or above
   /// 1e9, too many points.
-  Result<int> place(const std::vector<double>& xyz, const std::string& at);
+  Result<int> find_or_add_point(const std::vector<double>& xyz, const std::string& at);
   /// Adds a point with the next index. If an earlier point has its position, point() returns that
-  /// one instead. Errors: those of place().
+  /// one instead. Errors: those of find_or_add_point().
   Result<void> add_point(const std::vector<double>& xyz, const std::string& at);
   /// The earliest point at the position of point `number`. Errors (bad_input): there is no such
   /// point.
@@ -126,8 +126,9 @@ class NetworkBuilder {
     network_.own.push_back({int(network_.rods.size()) - 1, key, value});
   }
   /// Adds a constraint of the start or the end of the last rod.
-  void add_hold(bool end, EndKind kind) {
-    network_.holds.push_back({double(network_.rods.size()) - 1, double(end), double(kind)});
+  void add_constraint(bool end, EndKind kind) {
+    network_.end_constraints.push_back(
+        {double(network_.rods.size()) - 1, double(end), double(kind)});
   }
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
   /// Adds the spring of a support: stiffness along x, y, z, N/mm.
@@ -191,8 +192,8 @@ class NetworkBuilder {
 
   double near_mm_;
   NetworkData network_;
-  std::vector<std::string> places_;  // position of each rod in the file
-  std::set<int> samples_, seams_;    // points that thin_out() may remove
+  std::vector<std::string> locations_;  // position of each rod in the file
+  std::set<int> samples_, seams_;       // points that thin_out() may remove
   std::vector<Joint> joints_;
   std::set<int> listed_;      // points of joints_
   std::vector<int> same_as_;  // for each point the earliest one at its position

@@ -187,7 +187,7 @@ class Reader {
     }
     const auto xyz = numbers_in(value);
     if (!xyz) return unlike(value, "the number of a point, or its position [x, y] or [x, y, z]");
-    return builder_.place(*xyz, at_);
+    return builder_.find_or_add_point(*xyz, at_);
   }
 
   /// Whether "joints" lists a point by its number.
@@ -204,7 +204,7 @@ class Reader {
     const Json* list = &value;
     double diameter = 0;
     std::vector<std::pair<std::string, double>> own;
-    std::vector<std::pair<bool, EndKind>> holds;
+    std::vector<std::pair<bool, EndKind>> constraints;
     if (value.is_object()) {
       for (const auto& [key, inner] : value.items()) {
         if (key == "points") {
@@ -215,7 +215,7 @@ class Reader {
           if (!kind)
             return unlike(key, inner,
                           fmt::format("\"{}\"", fmt::join(all_words<EndKind>(), "\", \"")));
-          holds.emplace_back(key == "end", *kind);
+          constraints.emplace_back(key == "end", *kind);
         } else if (key == "diameter_mm" && inner.is_number() && inner.get<double>() > 0) {
           diameter = inner.get<double>();
         } else if (key != "diameter_mm" &&
@@ -239,7 +239,7 @@ class Reader {
     }
     TRY_DO(builder_.add_rod(std::move(points), diameter, at_));
     for (const auto& [key, number] : own) builder_.add_own(key, number);
-    for (const auto& [end, kind] : holds) builder_.add_hold(end, kind);
+    for (const auto& [end, kind] : constraints) builder_.add_constraint(end, kind);
     return {};
   }
 

@@ -27,7 +27,8 @@ SegmentEnds segment_ends(const NetworkData& network) {
   SegmentEnds ends(network.points.size());
   for (std::size_t r = 0; r < network.rods.size(); ++r) {
     const int a = network.rods[r].front(), b = network.rods[r].back();
-    const Eigen::Vector3d direction = (place_of(network, b) - place_of(network, a)).normalized();
+    const Eigen::Vector3d direction =
+        (position_of(network, b) - position_of(network, a)).normalized();
     ends[std::size_t(a)].push_back({int(2 * r), b, direction});
     ends[std::size_t(b)].push_back({int(2 * r) + 1, a, -direction});
   }
@@ -37,10 +38,11 @@ SegmentEnds segment_ends(const NetworkData& network) {
 /// Whether two segments of a joint, joined to one rod, would close a triangle with two other rods:
 /// their far points then have another common neighbour than the joint.
 bool make_triangle(const SegmentEnds& ends, const SegmentEnd& a, const SegmentEnd& b) {
-  std::set<int> beside;
-  for (const SegmentEnd& one : ends[std::size_t(a.to)]) beside.insert(one.to);
-  return std::ranges::count_if(ends[std::size_t(b.to)],
-                               [&](const SegmentEnd& one) { return beside.contains(one.to); }) > 1;
+  std::set<int> neighbours;
+  for (const SegmentEnd& one : ends[std::size_t(a.to)]) neighbours.insert(one.to);
+  return std::ranges::count_if(ends[std::size_t(b.to)], [&](const SegmentEnd& one) {
+           return neighbours.contains(one.to);
+         }) > 1;
 }
 
 /// Indices of the two of three segments that are straightest and make no triangle; or empty.
@@ -94,8 +96,8 @@ std::vector<RodCrossing> crossings_of(const NetworkData& network) {
       const int before = k > 0 ? rod[k - 1] : rod[0], after = k < last ? rod[k + 1]
                                                               : ring   ? rod[1]
                                                                        : rod[last];
-      at[rod[k]].emplace_back(int(r),
-                              (place_of(network, after) - place_of(network, before)).normalized());
+      at[rod[k]].emplace_back(
+          int(r), (position_of(network, after) - position_of(network, before)).normalized());
     }
   }
   std::vector<RodCrossing> all;
@@ -125,11 +127,11 @@ std::vector<std::vector<std::size_t>> crossings_along(const NetworkData& network
 /// Inverts normals so that those of neighbours along a rod have a positive scalar product.
 void turn_to_one_side(const std::vector<std::vector<std::size_t>>& along,
                       std::vector<Eigen::Vector3d>& normals) {
-  std::vector<std::vector<std::size_t>> beside(normals.size());
+  std::vector<std::vector<std::size_t>> neighbours(normals.size());
   for (const auto& rod : along)
     for (std::size_t k = 1; k < rod.size(); ++k) {
-      beside[rod[k - 1]].push_back(rod[k]);
-      beside[rod[k]].push_back(rod[k - 1]);
+      neighbours[rod[k - 1]].push_back(rod[k]);
+      neighbours[rod[k]].push_back(rod[k - 1]);
     }
   std::vector<char> seen(normals.size(), 0);
   for (std::size_t first = 0; first < normals.size(); ++first) {
@@ -137,7 +139,7 @@ void turn_to_one_side(const std::vector<std::vector<std::size_t>>& along,
     std::vector<std::size_t> piece{first};
     seen[first] = 1;
     for (std::size_t k = 0; k < piece.size(); ++k)
-      for (const std::size_t next : beside[piece[k]]) {
+      for (const std::size_t next : neighbours[piece[k]]) {
         if (seen[next] != 0) continue;
         seen[next] = 1;
         if (normals[next].dot(normals[piece[k]]) < 0) normals[next] *= -1;
@@ -198,12 +200,12 @@ Result<std::vector<int>> NetworkBuilder::continued_by_direction() const {
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     if (network_.rods[r].size() != 2)
       return invalid("{}: a line through {} points, expected 2: a linkage has a line per segment",
-                     places_[r], network_.rods[r].size());
+                     locations_[r], network_.rods[r].size());
   const SegmentEnds all = segment_ends(network_);
   for (const std::vector<SegmentEnd>& ends : all) {
     if (ends.size() > 4)
       return invalid("{}: {} segments meet at one point, expected at most 4 in a linkage",
-                     places_[std::size_t(ends.back().number / 2)], ends.size());
+                     locations_[std::size_t(ends.back().number / 2)], ends.size());
     const auto pairs = ends.size() == 4   ? opposite(ends)
                        : ends.size() == 3 ? straightest(all, ends)
                                           : std::vector<std::array<std::size_t, 2>>();
@@ -223,17 +225,17 @@ void NetworkBuilder::support_on_springs() {
   if (joints.size() < 3) return;
   Eigen::Vector3d middle(0, 0, 0);
   for (const RodCrossing& one : joints)
-    middle += place_of(network_, one.point) / double(joints.size());
+    middle += position_of(network_, one.point) / double(joints.size());
   const auto farthest = [&](const auto& distance) {
     return std::ranges::max_element(
                joints, {},
-               [&](const RodCrossing& one) { return distance(place_of(network_, one.point)); })
+               [&](const RodCrossing& one) { return distance(position_of(network_, one.point)); })
         ->point;
   };
   const int a = farthest([&](const Eigen::Vector3d& at) { return -(at - middle).norm(); });
-  const Eigen::Vector3d from = place_of(network_, a);
+  const Eigen::Vector3d from = position_of(network_, a);
   const int b = farthest([&](const Eigen::Vector3d& at) { return (at - from).norm(); });
-  const Eigen::Vector3d axis = place_of(network_, b) - from;
+  const Eigen::Vector3d axis = position_of(network_, b) - from;
   const int c = farthest([&](const Eigen::Vector3d& at) { return axis.cross(at - from).norm(); });
   if (a == b || b == c || a == c) return;
   const auto support = [&](int point, const Eigen::Vector3d& k) {
@@ -242,7 +244,7 @@ void NetworkBuilder::support_on_springs() {
   };
   Eigen::Index along = 0, turned = 0;
   axis.cwiseAbs().maxCoeff(&along);
-  axis.cross(place_of(network_, c) - from).cwiseAbs().maxCoeff(&turned);
+  axis.cross(position_of(network_, c) - from).cwiseAbs().maxCoeff(&turned);
   support(a, Eigen::Vector3d::Ones());
   support(b, Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(along));
   support(c, Eigen::Vector3d::Unit(turned));

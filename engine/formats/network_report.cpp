@@ -33,7 +33,7 @@ std::vector<double> segments_of(const NetworkData& network, const std::vector<Po
   for (const std::vector<int>& rod : network.rods) {
     double length = 0;
     for (std::size_t k = 1; k < rod.size(); ++k) {
-      length += (place_of(network, rod[k]) - place_of(network, rod[k - 1])).norm();
+      length += (position_of(network, rod[k]) - position_of(network, rod[k - 1])).norm();
       const PointUse& use = uses[std::size_t(rod[k])];
       if (use.passes + use.ends < 2 && k + 1 < rod.size()) continue;
       segments.push_back(length);
@@ -56,16 +56,16 @@ class NearPoints {
  public:
   NearPoints(const NetworkData& network, double near) : network_(network), near_(near) {
     rods_.resize(network.points.size());
-    beside_.resize(network.points.size());
+    neighbours_.resize(network.points.size());
     for (const std::vector<int>& rod : network.rods)
       for (std::size_t k = 1; k < rod.size(); ++k) {
-        beside_[std::size_t(rod[k])].push_back(rod[k - 1]);
-        beside_[std::size_t(rod[k - 1])].push_back(rod[k]);
+        neighbours_[std::size_t(rod[k])].push_back(rod[k - 1]);
+        neighbours_[std::size_t(rod[k - 1])].push_back(rod[k]);
       }
     for (std::size_t r = 0; r < network.rods.size(); ++r)
       for (const int point : network.rods[r]) {
         auto& rods = rods_[std::size_t(point)];
-        if (rods.empty()) cells_[cell_of(place_of(network, point))].push_back(point);
+        if (rods.empty()) cells_[cell_of(position_of(network, point))].push_back(point);
         if (rods.empty() || rods.back() != int(r)) rods.push_back(int(r));
       }
   }
@@ -78,14 +78,14 @@ class NearPoints {
     for (const auto& [cell, points] : cells_)
       for (const int a : points)
         for (int n = 0; n < 27; ++n) {
-          const auto beside =
+          const auto near =
               cells_.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
-          if (beside == cells_.end()) continue;
-          for (const int b : beside->second) {
+          if (near == cells_.end()) continue;
+          for (const int b : near->second) {
             if (++looked_at > most) return pairs;
-            const double apart = (place_of(network_, a) - place_of(network_, b)).norm();
+            const double apart = (position_of(network_, a) - position_of(network_, b)).norm();
             if (b <= a || !(apart < near_) || share_a_rod(a, b) || pass(a, b)) continue;
-            pairs.push_back({place_of(network_, a), apart});
+            pairs.push_back({position_of(network_, a), apart});
             found.insert({a, b});
           }
         }
@@ -112,11 +112,12 @@ class NearPoints {
     if (std::ranges::count(network_.free, a) + std::ranges::count(network_.free, b) > 0)
       return true;
     constexpr double alike = 0.25;  // sine of the angle between parallel rods, at most
-    const Eigen::Vector3d apart = place_of(network_, b) - place_of(network_, a);
-    for (const int next : beside_[std::size_t(a)])
-      for (const int other : beside_[std::size_t(b)]) {
-        const Eigen::Vector3d u = (place_of(network_, next) - place_of(network_, a)).normalized(),
-                              v = (place_of(network_, other) - place_of(network_, b)).normalized();
+    const Eigen::Vector3d apart = position_of(network_, b) - position_of(network_, a);
+    for (const int next : neighbours_[std::size_t(a)])
+      for (const int other : neighbours_[std::size_t(b)]) {
+        const Eigen::Vector3d
+            u = (position_of(network_, next) - position_of(network_, a)).normalized(),
+            v = (position_of(network_, other) - position_of(network_, b)).normalized();
         // they cross, or one continues the other
         if (u.cross(v).norm() > alike || u.cross(apart).norm() < 0.5 * apart.norm()) return false;
       }
@@ -140,12 +141,12 @@ class NearPoints {
     for (const auto& [end, own] : ends) {
       const std::vector<int>& rod = network_.rods[std::size_t(own)];
       // rods that are joined at the next point are near for a reason: the end reaches past them
-      const int beside = end == rod.front() ? rod[1] : rod[rod.size() - 2];
-      const Eigen::Vector3d at = place_of(network_, end);
+      const int next = end == rod.front() ? rod[1] : rod[rod.size() - 2];
+      const Eigen::Vector3d at = position_of(network_, end);
       double least = near_;
       for (std::size_t r = 0; r < network_.rods.size(); ++r)
         for (std::size_t k = 1; k < network_.rods[r].size() && int(r) != own; ++k)
-          if (std::ranges::count(rods_[std::size_t(beside)], int(r)) == 0 &&
+          if (std::ranges::count(rods_[std::size_t(next)], int(r)) == 0 &&
               !pass(end, network_.rods[r][k]))
             least = std::min(least, distance(at, network_.rods[r][k - 1], network_.rods[r][k]));
       if (least < near_) pairs.push_back({at, least});
@@ -153,7 +154,7 @@ class NearPoints {
   }
 
   double distance(const Eigen::Vector3d& at, int from, int to) const {
-    const Eigen::Vector3d a = place_of(network_, from), segment = place_of(network_, to) - a;
+    const Eigen::Vector3d a = position_of(network_, from), segment = position_of(network_, to) - a;
     const double fraction = std::clamp((at - a).dot(segment) / segment.squaredNorm(), 0.0, 1.0);
     return (a + fraction * segment - at).norm();
   }
@@ -161,7 +162,8 @@ class NearPoints {
   const NetworkData& network_;
   double near_;
   std::map<Cell, std::vector<int>> cells_;
-  std::vector<std::vector<int>> rods_, beside_;  // rods through each point; its neighbours on them
+  std::vector<std::vector<int>> rods_,
+      neighbours_;  // rods through each point; its neighbours on them
 };
 
 }  // namespace
@@ -185,7 +187,7 @@ void report_network(const NetworkData& network, const NetworkOptions& options, F
   for (int point = 0; point < int(uses.size()); ++point) {
     const auto [passes, ends] = uses[std::size_t(point)];
     if (passes + ends == 0) continue;
-    box.extend(place_of(network, point));
+    box.extend(position_of(network, point));
     const bool hinged = free.contains(point) || sprung.contains(point) ||
                         (laws.contains(point) && !named.contains(point));
     if (passes + ends > 1 && (passes > 0 || hinged)) ++joints;

@@ -44,7 +44,7 @@ std::string_view obj_line(std::string_view& text, int& number, std::string& join
 
 /// x, y, z of a line "v x y z"; a weight or a colour may follow.
 Result<std::vector<double>> obj_coordinates(const std::vector<std::string_view>& words,
-                                            const std::string& place) {
+                                            const std::string& where) {
   std::vector<double> xyz;
   bool commas = false;
   for (std::size_t k = 1; k < words.size(); ++k) {
@@ -54,7 +54,7 @@ Result<std::vector<double>> obj_coordinates(const std::vector<std::string_view>&
     if (!value) break;
   }
   if (xyz.size() == 3) return xyz;
-  return invalid("{}: expected a vertex of three numbers, v x y z{}", place,
+  return invalid("{}: expected a vertex of three numbers, v x y z{}", where,
                  commas ? ", with decimal points" : "");
 }
 
@@ -92,15 +92,15 @@ struct Header {
   int lines = 0;
 };
 
-Result<Property> property_of(const std::vector<std::string_view>& words, const std::string& place) {
+Result<Property> property_of(const std::vector<std::string_view>& words, const std::string& where) {
   const bool list = words.size() == 5 && words[1] == "list";
   if (!list && words.size() != 3)
-    return invalid(place + ": expected \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
+    return invalid(where + ": expected \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
   Property property{std::string(words.back()), std::nullopt, Number::float32};
   const auto value = number_type(words[words.size() - 2]);
   if (list) property.count = number_type(words[2]);
   if (!value || (list && !property.count))
-    return invalid(place + ": got a type that PLY does not have");
+    return invalid(where + ": got a type that PLY does not have");
   property.value = *value;
   return property;
 }
@@ -111,15 +111,15 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
   bool formed = false;
   while (!bytes.empty()) {
     const auto words = words_in(next_line(bytes));
-    const auto place = fmt::format("{}:{}", name, ++header.lines);
+    const auto where = fmt::format("{}:{}", name, ++header.lines);
     if (header.lines == 1) {
       if (words.size() == 1 && words[0] == "ply") continue;
-      return invalid(place + ": got no PLY, expected \"ply\" as the first line");
+      return invalid(where + ": got no PLY, expected \"ply\" as the first line");
     }
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") {
       if (formed) return header;
-      return invalid(place + ": got a header without a format");
+      return invalid(where + ": got a header without a format");
     }
     if (words[0] == "format" && words.size() == 3) {
       formed = true;
@@ -142,11 +142,11 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
     }
     if (words[0] == "property" && !header.elements.empty() &&
         header.elements.back().properties.size() < most_elements) {
-      TRY(property, property_of(words, place));
+      TRY(property, property_of(words, where));
       header.elements.back().properties.push_back(std::move(*property));
       continue;
     }
-    return invalid(place + ": got no line of a PLY header");
+    return invalid(where + ": got no line of a PLY header");
   }
   return invalid(name + ": ends within its header");
 }
@@ -241,7 +241,7 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
   for (const Property& property : element.properties) {
     const auto values = values_of(property, numbers);
     if (!values)
-      return invalid(item.place(name) +
+      return invalid(item.location(name) +
                      ": got the end of the file or no number, expected a number");
     if (!property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
         property.name[0] <= 'z') {
@@ -272,14 +272,14 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
     const std::string_view line = obj_line(bytes, number, joined);
     const auto words = words_in(line.substr(0, line.find('#')));
     if (words.empty()) continue;
-    const auto place = fmt::format("{}:{}", name, first);
+    const auto where = fmt::format("{}:{}", name, first);
     if (words[0] == "curv" || words[0] == "curv2" || words[0] == "surf")
-      return invalid("{}: got '{}', a free-form {}, expected {}", place, words[0],
+      return invalid("{}: got '{}', a free-form {}, expected {}", where, words[0],
                      words[0] == "surf" ? "surface" : "curve",
                      words[0] == "surf" ? "polygons (f)" : "a polyline (l)");
     if (words[0] == "v") {
-      TRY(xyz, obj_coordinates(words, place));
-      if (auto taken = lines.vertex(*xyz, place); !taken) return tl::unexpected(taken.error());
+      TRY(xyz, obj_coordinates(words, where));
+      if (auto taken = lines.vertex(*xyz, where); !taken) return tl::unexpected(taken.error());
       ++vertices;
     }
     if (words[0] != element) {
@@ -290,11 +290,11 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
     for (std::size_t k = 1; k < words.size(); ++k) {
       const auto corner = obj_vertex(words[k], vertices);
       if (!corner)
-        return invalid("{}: got '{}', expected the number of a vertex", place,
+        return invalid("{}: got '{}', expected the number of a vertex", where,
                        words[k].substr(0, 40));
       corners.push_back(*corner);
     }
-    if (auto taken = lines.element(corners, place); !taken) return tl::unexpected(taken.error());
+    if (auto taken = lines.element(corners, where); !taken) return tl::unexpected(taken.error());
   }
   return others;
 }
@@ -327,16 +327,16 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
                    name, number);
   for (long k = 0; k < vertices + faces; ++k) {
     words = next_words();
-    const auto place = fmt::format("{}:{}", name, number);
+    const auto where = fmt::format("{}:{}", name, number);
     if (words.empty())
-      return invalid("{}: ends after {} of its {} vertices and {} faces", place, k, vertices,
+      return invalid("{}: ends after {} of its {} vertices and {} faces", where, k, vertices,
                      faces);
     if (k < vertices) {
       std::vector<double> xyz;
       for (std::size_t n = 0; n < words.size() && n < 3; ++n)
         if (const auto value = number_of(words[n])) xyz.push_back(*value);
-      if (xyz.size() != 3) return invalid("{}: expected a vertex of three numbers, x y z", place);
-      if (auto taken = lines.vertex(xyz, place); !taken) return taken;
+      if (xyz.size() != 3) return invalid("{}: expected a vertex of three numbers, x y z", where);
+      if (auto taken = lines.vertex(xyz, where); !taken) return taken;
       continue;
     }
     std::vector<long> corners;
@@ -344,13 +344,13 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
     for (long n = 1; n <= size && n < long(words.size()); ++n)
       corners.push_back(count(std::size_t(n)));
     if (size < 0 || long(corners.size()) != size)
-      return invalid("{}: expected a face: its number of vertices and these", place);
-    if (auto taken = lines.element(corners, place); !taken) return taken;
+      return invalid("{}: expected a face: its number of vertices and these", where);
+    if (auto taken = lines.element(corners, where); !taken) return taken;
   }
   return {};
 }
 
-std::string PlyItem::place(const std::string& name) const {
+std::string PlyItem::location(const std::string& name) const {
   return fmt::format("{}: {} {}", name, element, number + 1);
 }
 

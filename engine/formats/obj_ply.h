@@ -13,11 +13,11 @@
 
 namespace gridshell::preset {
 
-/// Receivers of the vertices and elements of a file; errors start with `place`: "dome.obj:17".
+/// Receivers of the vertices and elements of a file; errors start with `where`: "dome.obj:17".
 struct ObjCallbacks {
-  std::function<Result<void>(const std::vector<double>& xyz, const std::string& place)> vertex;
+  std::function<Result<void>(const std::vector<double>& xyz, const std::string& where)> vertex;
   /// `vertices` are indices from 0; they are not checked.
-  std::function<Result<void>(const std::vector<long>& vertices, const std::string& place)> element;
+  std::function<Result<void>(const std::vector<long>& vertices, const std::string& where)> element;
 };
 
 /// Reads an OBJ file: vertices "v x y z" and the elements of one kind, faces "f a b c ..." or
@@ -47,7 +47,7 @@ struct PlyItem {
   std::vector<long> corners;  ///< its list vertex_indices; for an edge vertex1 and vertex2
 
   /// Its position for messages: "dome.ply: vertex 3".
-  std::string place(const std::string& name) const;
+  std::string location(const std::string& name) const;
 };
 
 /// Reads a PLY file, text or binary: calls `take` for every element, in order. `name` is the file's

@@ -157,12 +157,12 @@ Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& 
   };
   bool faces = false;
   const auto element = [&](const std::vector<long>& numbers,
-                           const std::string& place) -> Result<void> {
+                           const std::string& where) -> Result<void> {
     PlanLine& line = drawing.lines.emplace_back();
     line.closed = faces;
     for (const long number : numbers) {
       if (number < 0 || number >= long(points.size()))
-        return invalid("{}: got vertex {}, expected at most {}", place, number + 1, points.size());
+        return invalid("{}: got vertex {}, expected at most {}", where, number + 1, points.size());
       line.points.push_back(points[std::size_t(number)]);
     }
     return {};

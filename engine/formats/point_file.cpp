@@ -16,11 +16,11 @@ namespace {
 /// Collects the points of a cloud.
 class CloudBuilder {
  public:
-  Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto place_of) {
+  Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto where) {
     constexpr double largest = 1e9;
     if (!(p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest))
-      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9",
-                     place_of(), p.allFinite() ? "too large" : "not a number");
+      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9", where(),
+                     p.allFinite() ? "too large" : "not a number");
     if (points_.size() >= 3 * most_cloud_points)
       return invalid("{}: got more than {} points", name, most_cloud_points);
     points_.insert(points_.end(), p.data(), p.data() + 3);
@@ -54,7 +54,7 @@ Result<Cloud> read_vertices(std::string_view bytes, const std::string& name, dou
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element != "vertex") return {};
     if (item.has_xyz && item.xyz.array().isNaN().all()) return ++empty, Result<void>();
-    return builder.add(unit_mm * item.xyz, name, [&] { return item.place(name); });
+    return builder.add(unit_mm * item.xyz, name, [&] { return item.location(name); });
   });
   if (!read) return tl::unexpected(read.error());
   return builder.take(name, empty);

@@ -71,14 +71,14 @@ struct NetworkData {
   /// of a joint, below 0: rigid; point every_joint: the law of all joints without a row.
   Points joint_laws;
   /// Rows (rod, 0 for its start or 1 for its end, index of an EndKind): constraints of single ends.
-  Points holds;
+  Points end_constraints;
 
   bool empty() const { return rods.empty(); }
 };
 
 /// Whether an end of a rod is clamped.
 inline bool clamps(const NetworkData& network) {
-  return std::ranges::any_of(network.holds,
+  return std::ranges::any_of(network.end_constraints,
                              [](const auto& row) { return row[2] == double(EndKind::clamped); });
 }
 
@@ -114,7 +114,7 @@ void each_part(Data& data, bool, const Visit& visit) {
   visit("springs_N_per_mm", data.springs, false);
   visit("free", data.free, false);
   visit("joint_laws", data.joint_laws, false);
-  visit("holds", data.holds, false);
+  visit("holds", data.end_constraints, false);
 }
 
 }  // namespace gridshell::preset

@@ -15,35 +15,35 @@
 
 namespace gridshell::preset {
 
-Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string& place) {
+Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string& where) {
   constexpr double largest = 1e9;
   for (double& value : xyz) {
     value *= unit_mm_;
     if (!(std::abs(value) <= largest))
-      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9", place,
+      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9", where,
                      std::isfinite(value) ? "too large" : "not a number");
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // in a file of separate triangles each has three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
-    return invalid("{}: got more than {} vertices, expected fewer", place, most_vertices);
+    return invalid("{}: got more than {} vertices, expected fewer", where, most_vertices);
   number_.push_back(found->second);
   if (fresh) mesh_.vertices.push_back(xyz);
   return {};
 }
 
-Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& place) {
+Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& where) {
   if (corners.size() < 3)
-    return invalid("{}: got a polygon of {} corners, expected 3 or more", place, corners.size());
+    return invalid("{}: got a polygon of {} corners, expected 3 or more", where, corners.size());
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return invalid("{}: got the number of no vertex, expected one of the {} before it", place,
+      return invalid("{}: got the number of no vertex, expected one of the {} before it", where,
                      number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
-    return invalid("{}: got more than {} triangles, expected fewer", place, most_triangles);
+    return invalid("{}: got more than {} triangles, expected fewer", where, most_triangles);
   for (std::size_t k = 2; k < ring.size(); ++k)
     if (ring[0] != ring[k - 1] && ring[k - 1] != ring[k] && ring[k] != ring[0])
       mesh_.triangles.push_back({ring[0], ring[k - 1], ring[k]});
@@ -72,11 +72,11 @@ std::size_t count_in(std::string_view bytes) {
 
 /// Adds a corner; every third one completes a triangle.
 Result<void> add_corner(MeshBuilder& builder, const std::vector<double>& xyz,
-                        const std::string& place) {
-  if (auto added = builder.add_vertex(xyz, place); !added) return added;
+                        const std::string& where) {
+  if (auto added = builder.add_vertex(xyz, where); !added) return added;
   const long count = long(builder.vertices());
   if (count % 3 != 0) return {};
-  return builder.add_polygon({count - 3, count - 2, count - 1}, place);
+  return builder.add_polygon({count - 3, count - 2, count - 1}, where);
 }
 
 Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name, double unit_mm) {
@@ -102,13 +102,13 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
     if (first == "solid") ended = false;
     if (first == "endsolid") ended = true;
     if (first != "vertex") continue;
-    const auto place = fmt::format("{}:{}", name, number);
+    const auto where = fmt::format("{}:{}", name, number);
     std::vector<double> xyz;
     for (std::size_t k = 1; k < words.size(); ++k)
       if (const auto value = number_of(words[k])) xyz.push_back(*value);
     if (xyz.size() != 3 || words.size() != 4)
-      return invalid(place + ": expected a vertex of three numbers, vertex x y z");
-    TRY_DO(add_corner(builder, xyz, place));
+      return invalid(where + ": expected a vertex of three numbers, vertex x y z");
+    TRY_DO(add_corner(builder, xyz, where));
   }
   if (builder.vertices() % 3 != 0)
     return invalid("{}: got {} vertices, expected three per triangle", name, builder.vertices());
@@ -161,10 +161,10 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
     return invalid(
         "{}: got {} different x and {} different y, expected a grid of at least 4 x 4 points", name,
         columns, rows);
-  const auto holds = fmt::format("{} points on a grid of {} x {}", points, columns, rows);
+  const auto size_text = fmt::format("{} points on a grid of {} x {}", points, columns, rows);
   // scattered points form a grid with as many nodes as the square of their number
   if (columns * rows > 4 * points)
-    return invalid("{}: got {}, expected a complete rectangle", name, holds);
+    return invalid("{}: got {}, expected a complete rectangle", name, size_text);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
   for (std::size_t k = 0; k < points; ++k) {
     const double x = table->at(k, 0), y = table->at(k, 1);
@@ -179,7 +179,7 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
       if (std::isnan(grid.z[j][i]))
         return invalid(
             "{}: got {}, and none at ({:g}, {:g}): a hole, expected a complete rectangle", name,
-            holds, grid.x[i], grid.y[j]);
+            size_text, grid.x[i], grid.y[j]);
   return grid;
 }
 
@@ -224,10 +224,10 @@ Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, do
   MeshBuilder builder(unit_mm);
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element == "vertex")
-      return builder.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
-    if (item.element == "face") return builder.add_polygon(item.corners, item.place(name));
+      return builder.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.location(name));
+    if (item.element == "face") return builder.add_polygon(item.corners, item.location(name));
     if (item.element == "tristrips")
-      return invalid("{}: got strips of triangles, expected faces", item.place(name));
+      return invalid("{}: got strips of triangles, expected faces", item.location(name));
     return {};
   });
   if (!read) return tl::unexpected(read.error());

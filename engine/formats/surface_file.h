@@ -12,7 +12,7 @@
 
 namespace gridshell::preset {
 
-/// Builds a triangle mesh from the vertices and polygons of a file. Errors start with `place`:
+/// Builds a triangle mesh from the vertices and polygons of a file. Errors start with `where`:
 /// "dome.obj:17".
 class MeshBuilder {
  public:
@@ -24,11 +24,11 @@ class MeshBuilder {
   std::size_t vertices() const { return number_.size(); }
   /// Adds a vertex; vertices at equal positions are merged. Errors (bad_input): a coordinate that
   /// is not finite or above 1e9, too many vertices.
-  Result<void> add_vertex(std::vector<double> xyz, const std::string& place);
+  Result<void> add_vertex(std::vector<double> xyz, const std::string& where);
   /// Adds a convex polygon as a fan of triangles, without those that have equal corners. `corners`:
   /// indices of vertices in the file, from 0. Errors (bad_input): fewer than three corners, a
   /// vertex that does not exist, too many triangles.
-  Result<void> add_polygon(const std::vector<long>& corners, const std::string& place);
+  Result<void> add_polygon(const std::vector<long>& corners, const std::string& where);
   /// The mesh. Errors (bad_input): there is no triangle.
   Result<SurfaceData> take(const std::string& name);
 

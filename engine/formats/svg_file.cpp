@@ -341,13 +341,13 @@ Result<PlanDrawing> read_svg(std::string_view bytes, const std::string& name) {
   for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
     number += std::ranges::count(text.substr(counted, at - counted), '\n');
     counted = at;
-    const auto place = [&] { return fmt::format("{}:{}", name, number); };
+    const auto where = [&] { return fmt::format("{}:{}", name, number); };
     if (const auto next = skipped(text, at)) {
       at = *next;
       continue;
     }
     const auto end = text.find('>', at);
-    if (end == text.npos) return invalid("{}: a tag does not end", place());
+    if (end == text.npos) return invalid("{}: a tag does not end", where());
     const Tag tag = tag_of(text.substr(at + 1, end - at - 1));
     at = end + 1;
     if (tag.ends) {
@@ -357,7 +357,7 @@ Result<PlanDrawing> read_svg(std::string_view bytes, const std::string& name) {
     if (tag.name == "svg" && !std::exchange(is_svg, true)) take_unit(tag, drawing);
     const auto transform = transform_of(tag.get("transform"));
     if (!transform)
-      return invalid("{}: transform = \"{}\" is not understood", place(), tag.get("transform"));
+      return invalid("{}: transform = \"{}\" is not understood", where(), tag.get("transform"));
     std::string style = tag.get("style") + ";display:" + tag.get("display");
     std::erase(style, ' ');
     const Level level{levels.back().transform * *transform,
@@ -367,7 +367,7 @@ Result<PlanDrawing> read_svg(std::string_view bytes, const std::string& name) {
     if (!level.drawn) continue;
     std::string wrong;
     const auto lines = lines_of(tag, wrong);
-    if (!wrong.empty()) return invalid("{}: <{}> has {}", place(), tag.name, wrong);
+    if (!wrong.empty()) return invalid("{}: <{}> has {}", where(), tag.name, wrong);
     if (reported.contains(tag.name)) ++others[tag.name];
     if (!lines) continue;
     for (PlanLine line : *lines) {

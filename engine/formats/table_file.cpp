@@ -23,7 +23,7 @@ class TableReader {
               const TableOptions& options)
       : name_(name), requested_(columns), options_(options), scale_(columns.size(), 1) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      place_.push_back(k);
+      cell_index_.push_back(k);
       if (is_length(columns[k].name)) scale_[k] = options.unit_mm;
     }
     table_.columns = columns.size();
@@ -45,7 +45,7 @@ class TableReader {
   }
 
  private:
-  std::string place(int line) const { return fmt::format("{}:{}", name_, line); }
+  std::string location(int line) const { return fmt::format("{}:{}", name_, line); }
   std::string names_text() const {
     std::vector<std::string> names;
     for (const TableColumn& one : requested_) names.push_back(one.name);
@@ -70,8 +70,8 @@ class TableReader {
       const auto line = without_remark(next_line(text));
       if (!line.empty() && !(lines.empty() && is_whole(line))) lines.push_back(line);
     }
-    const auto all = [&](auto&& holds) {
-      return !lines.empty() && std::ranges::all_of(lines, holds);
+    const auto all = [&](auto&& condition) {
+      return !lines.empty() && std::ranges::all_of(lines, condition);
     };
     Cells cells;
     // half of the lines is enough: a title or a truncated row may have other signs
@@ -154,10 +154,11 @@ class TableReader {
       return invalid(
           "{}: a second count of points: a scanner's grid (.ptx)? Expected points, one a line "
           "(.pts, .xyz, .ply)",
-          place(number));
+          location(number));
     const double count = *number_of(cells_[0]);
     if (!(count >= 1 && count <= 1e9))
-      return invalid("{}: got a count of {} points, expected 1 to 1e9", place(number), cells_[0]);
+      return invalid("{}: got a count of {} points, expected 1 to 1e9", location(number),
+                     cells_[0]);
     counted_ = true;
     counted_from_ = table_.rows() + table_.empty_rows;
     expected_ = counted_from_ + std::size_t(count);
@@ -179,8 +180,8 @@ class TableReader {
     split(names, apart_ == ' ' && names.find(',') != names.npos ? ',' : apart_, cells);
     if (cells.size() != cells_.size()) split(names, ' ', cells);
     if (cells.size() != cells_.size() || !std::ranges::all_of(cells, is_name)) return;
-    const auto before = std::pair(place_, scale_);
-    if (!take_header(cells, 0)) std::tie(place_, scale_) = before;
+    const auto before = std::pair(cell_index_, scale_);
+    if (!take_header(cells, 0)) std::tie(cell_index_, scale_) = before;
   }
 
   Result<void> take_header(const Cells& cells, int line) {
@@ -192,7 +193,7 @@ class TableReader {
       for (std::size_t c = 0; c < cells.size(); ++c) {
         const ColumnName named = column_name(cells[c]);
         if (named.base != requested.base) continue;
-        if (at) return invalid("{}: got column {} twice", place(line), requested_[k].name);
+        if (at) return invalid("{}: got column {} twice", location(line), requested_[k].name);
         at = c;
         TRY_DO(take_unit(k, named, requested, line));
       }
@@ -203,9 +204,9 @@ class TableReader {
     }
     if (!missing.empty())
       return invalid("{}: got columns '{}', of which {} {} missing (a remark begins with #)",
-                     place(line), shortened(fmt::format("{}", fmt::join(cells, "', '"))),
+                     location(line), shortened(fmt::format("{}", fmt::join(cells, "', '"))),
                      fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is");
-    place_ = found;
+    cell_index_ = found;
     length_ = cells.size();
     table_.by_name = true;
     return {};
@@ -227,7 +228,7 @@ class TableReader {
     const bool plain = named.unit.empty() || named.unit == requested.unit || named.unit == "-" ||
                        (!length && (named.unit == "n" || named.unit == "deg"));
     if ((length && mm > 0) || angle || plain) return {};
-    return invalid("{}: column {}: got '{}', expected {}", place(line), requested_[column].name,
+    return invalid("{}: column {}: got '{}', expected {}", location(line), requested_[column].name,
                    named.unit,
                    length                   ? "mm, cm, m, in or ft"
                    : requested.unit.empty() ? "the unit of its key"
@@ -235,7 +236,7 @@ class TableReader {
   }
 
   Result<void> take_row(int line) {
-    const bool by_place = !table_.by_name;
+    const bool by_position = !table_.by_name;
     const std::size_t least = requested_.size();
     if (options_.empty_rows && is_empty_row()) {
       ++table_.empty_rows;
@@ -243,15 +244,15 @@ class TableReader {
     }
     fill_up();
     if (length_ == 0)
-      length_ = by_place && !options_.longer_rows ? least : std::max(least, cells_.size());
+      length_ = by_position && !options_.longer_rows ? least : std::max(least, cells_.size());
     if (cells_.size() != length_ && !split_by_any()) return wrong_length(line);
-    if (by_place && looks_like_commas())
+    if (by_position && looks_like_commas())
       return invalid(
           "{}: six whole numbers between commas: decimal commas, or further columns? Expected a "
           "first line that names the columns, or semicolons part them",
-          place(line));
+          location(line));
     for (std::size_t k = 0; k < requested_.size(); ++k) {
-      TRY(value, value_in(cells_[place_[k]], k, line));
+      TRY(value, value_in(cells_[cell_index_[k]], k, line));
       table_.values.push_back(*value * scale_[k]);
     }
     table_.lines.push_back(line);
@@ -263,7 +264,7 @@ class TableReader {
   /// Whether every requested cell, or every cell of the row, is a missing number.
   bool is_empty_row() const {
     return std::ranges::all_of(cells_, is_missing) ||
-           std::ranges::all_of(place_, [&](std::size_t at) {
+           std::ranges::all_of(cell_index_, [&](std::size_t at) {
              return at < cells_.size() && is_missing(cells_[at]);
            });
   }
@@ -299,7 +300,7 @@ class TableReader {
                                  : length_ > requested_.size()
                                      ? fmt::format("{}, as in the rows before", length_)
                                      : columns_text();
-    return invalid("{}: got {} values, expected {}{}", place(line), cells_.size(), expected,
+    return invalid("{}: got {} values, expected {}{}", location(line), cells_.size(), expected,
                    commas ? "; with decimal commas, semicolons separate the columns" : "");
   }
 
@@ -308,7 +309,7 @@ class TableReader {
     if (!words.empty()) {
       const auto found = std::ranges::find(words, cell);
       if (found != words.end()) return double(found - words.begin());
-      return invalid("{}: got '{}', which is no value of its column, expected {}", place(line),
+      return invalid("{}: got '{}', which is no value of its column, expected {}", location(line),
                      shortened(std::string(cell)), columns_text());
     }
     const auto value =
@@ -316,7 +317,7 @@ class TableReader {
     if (!value) {
       const bool blank = cell.find(' ') != cell.npos;
       const auto got = fmt::format("'{}'", shortened(std::string(cell)));
-      return invalid("{}: got {}, which is no number, expected {}{}", place(line),
+      return invalid("{}: got {}, which is no number, expected {}{}", location(line),
                      cell.empty() ? std::string("an empty cell") : got, columns_text(),
                      blank ? "; expected one sign between all cells" : "");
     }
@@ -325,7 +326,7 @@ class TableReader {
     points_ = points_ || point;
     if (commas_ && points_)
       return invalid("{}: '{}' after numbers with decimal {}, expected one decimal sign",
-                     place(line), cell, comma ? "points" : "commas");
+                     location(line), cell, comma ? "points" : "commas");
     return *value;
   }
 
@@ -334,7 +335,7 @@ class TableReader {
   const TableOptions& options_;
   char apart_ = ' ';
   Cells cells_;
-  std::vector<std::size_t> place_;  // index of each requested column among the cells
+  std::vector<std::size_t> cell_index_;  // index of each requested column among the cells
   std::vector<double> scale_;
   std::size_t length_ = 0;  // number of cells of a row
   std::string_view remark_, row_;

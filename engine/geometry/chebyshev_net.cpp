@@ -119,7 +119,7 @@ Rod follow(double u, double v) {
 // tangents with a smaller angle between them (rad) count as a fold
 constexpr double least_sine = 1e-6;
 
-tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
+tl::unexpected<Error> outside_error(const char* curve, char name, double at, double half) {
   return invalid(
       "curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm is past its end", curve,
       name, at < 0 ? -half : half, name, at);
@@ -188,10 +188,10 @@ Result<void> TranslationNet::check_open() const {
   // the normal changes its sign where the tangents become parallel
   constexpr int samples = 128;
   Eigen::Matrix3Xd along_u(3, samples + 1), along_v(3, samples + 1);
-  const auto place = [](double half, int k) { return half * (2.0 * k / samples - 1); };
+  const auto parameter = [](double half, int k) { return half * (2.0 * k / samples - 1); };
   for (int k = 0; k <= samples; ++k) {
-    along_u.col(k) = x_.at(place(half_u(), k)).first;
-    along_v.col(k) = y_.at(place(half_v(), k)).first;
+    along_u.col(k) = x_.at(parameter(half_u(), k)).first;
+    along_v.col(k) = y_.at(parameter(half_v(), k)).first;
   }
   for (int i = 0; i <= samples; ++i) {
     for (int j = 0; j <= samples; ++j) {
@@ -200,15 +200,16 @@ Result<void> TranslationNet::check_open() const {
       const Eigen::Vector3d before_v = along_u.col(i).cross(along_v.col(std::max(j - 1, 0)));
       if (normal.norm() > least_sine && normal.dot(before_u) > 0 && normal.dot(before_v) > 0)
         continue;
-      return folds(place(half_u(), i), place(half_v(), j), along_u.col(i).dot(along_v.col(j)));
+      return folds(parameter(half_u(), i), parameter(half_v(), j),
+                   along_u.col(i).dot(along_v.col(j)));
     }
   }
   return {};
 }
 
 Result<NetPoint> TranslationNet::at(double u, double v) const {
-  if (!(std::abs(u) <= half_u())) return beyond("u", 'u', u, half_u());
-  if (!(std::abs(v) <= half_v())) return beyond("v", 'v', v, half_v());
+  if (!(std::abs(u) <= half_u())) return outside_error("u", 'u', u, half_u());
+  if (!(std::abs(v) <= half_v())) return outside_error("v", 'v', v, half_v());
   const SplineCurve::Point x = x_.at(u), y = y_.at(v);
   NetPoint point;
   point.position = x.position + y.position;

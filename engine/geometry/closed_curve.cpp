@@ -288,8 +288,8 @@ Vector2d BoundaryMap::operator()(const Vector2d& on_original) const {
 std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
   std::vector<int> order(std::size_t(points.cols()));
   std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](int k) { return std::pair(points(0, k), points(1, k)); };
-  std::ranges::sort(order, {}, place);
+  const auto coordinates = [&](int k) { return std::pair(points(0, k), points(1, k)); };
+  std::ranges::sort(order, {}, coordinates);
   // the lower side from left to right, then the upper one back [Andrew 1979]
   std::vector<int> hull;
   for (int side = 0; side < 2; ++side) {

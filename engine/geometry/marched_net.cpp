@@ -61,7 +61,7 @@ MarchedGrid::MarchedGrid(double chord, int most) : chord_(chord), most_(most) {
 struct MarchedGrid::March {
   MarchedGrid& grid;
   const Surface& surface;
-  const NetPlace& place;
+  const NetPose& pose;
   const Barriers* lines;    // lines of the mesh; null if `lead` is given
   const MarchedGrid* lead;  // grid of twice the chord that this one follows; or null
   double least_angle = 0;
@@ -86,11 +86,11 @@ struct MarchedGrid::March {
     return line ? stop_at(*line) : RodStop::none;
   }
 
-  void accept(int i, int j, const Eigen::Vector3d& p, bool by_u, bool by_v, int beyond = 0) {
+  void accept(int i, int j, const Eigen::Vector3d& p, bool by_u, bool by_v, int past_rim = 0) {
     Node& node = grid.node(i, j);
     node.p = p;
-    node.known = beyond == 0;
-    node.beyond = char(beyond);
+    node.known = past_rim == 0;
+    node.past_rim = char(past_rim);
     node.by = by_u && by_v ? Node::corner : by_u ? Node::straight_u : Node::straight_v;
     Node &to_u = grid.node(std::min(i, i - sign(i)), j),
          &to_v = grid.node(i, std::min(j, j - sign(j)));
@@ -106,8 +106,7 @@ struct MarchedGrid::March {
     const Eigen::Vector3d& here = grid.at(a, b).p;
     if (a == 0 && b == 0)
       return geodesic_chord(
-          surface, here,
-          step_u != 0 ? step_u * place.along_u : step_v * place.up.cross(place.along_u),
+          surface, here, step_u != 0 ? step_u * pose.along_u : step_v * pose.up.cross(pose.along_u),
           grid.chord_);
     if (!grid.linked(a, b, -step_u, -step_v)) return std::nullopt;
     const Eigen::Vector3d last = (here - grid.at(a - step_u, b - step_v).p).normalized();
@@ -134,7 +133,7 @@ struct MarchedGrid::March {
     if (lines) {
       const Eigen::Vector3d& here = grid.at(a, b).p;
       if (const RodStop stop = stop_between(here, *p); stop != RodStop::none) return stop;
-      if (!(place.outside(*p) < 0)) return RodStop::cut;
+      if (!(pose.outside(*p) < 0)) return RodStop::cut;
       if (is_taken(i, j, *p)) return RodStop::net;
     }
     accept(i, j, *p, step_u != 0, step_v != 0);
@@ -168,7 +167,7 @@ struct MarchedGrid::March {
       if (angle_between(*p - A, *p - B) < least_angle) return RodStop::angle;
       const RodStop from_u = stop_between(A, *p), from_v = stop_between(B, *p);
       stop = from_u != RodStop::none ? from_u : from_v;
-      if (stop == RodStop::none && !(place.outside(*p) < 0)) return RodStop::cut;
+      if (stop == RodStop::none && !(pose.outside(*p) < 0)) return RodStop::cut;
       if (stop == RodStop::none && is_taken(i, j, *p)) return RodStop::net;
       if (stop == RodStop::none) {
         accept(i, j, *p, true, true);
@@ -185,25 +184,25 @@ struct MarchedGrid::March {
   }
 
   /// Computes a node outside a rim from its neighbours towards the axes.
-  void go_beyond(int i, int j) {
+  void extend_past_rim(int i, int j) {
     constexpr double least_sine = 0.12;
     const int su = sign(i), sv = sign(j);
     const auto& A = grid.at(i - su, j);
     const auto& B = grid.at(i, j - sv);
     const bool by_u = su != 0 && grid.present(i - su, j), by_v = sv != 0 && grid.present(i, j - sv);
-    const int beyond = 1 + std::min(by_u ? A.beyond : margin, by_v ? B.beyond : margin);
-    if (beyond > margin) return;
+    const int past_rim = 1 + std::min(by_u ? A.past_rim : margin, by_v ? B.past_rim : margin);
+    if (past_rim > margin) return;
     if (has_cell(i, j, false)) {
       const auto p = corner(i, j, su, sv);
       if (p && (*p - A.p).cross(*p - B.p).norm() > least_sine * grid.chord_ * grid.chord_)
-        accept(i, j, *p, true, true, beyond);
+        accept(i, j, *p, true, true, past_rim);
       return;
     }
     for (const bool along_u : {true, false}) {
       if (!(along_u ? by_u : by_v)) continue;
       const int step_u = along_u ? su : 0, step_v = along_u ? 0 : sv;
       if (const auto p = straight(i - step_u, j - step_v, step_u, step_v))
-        return accept(i, j, *p, along_u, !along_u, beyond);
+        return accept(i, j, *p, along_u, !along_u, past_rim);
     }
   }
 
@@ -215,7 +214,7 @@ struct MarchedGrid::March {
     const auto& next_u = lead->at((i + (on_v ? 0 : su)) / 2, j / 2);
     const auto& next_v = lead->at(i / 2, (j + (on_u ? 0 : sv)) / 2);
     const auto is = [](const Node& node, auto by) {
-      return (node.known || node.beyond > 0) && node.by == by;
+      return (node.known || node.past_rim > 0) && node.by == by;
     };
     if (su != 0 && on_u && is(next_u, Node::straight_u)) {
       if (grid.known(i - su, j)) go_straight(i, j, su, 0);
@@ -231,7 +230,7 @@ struct MarchedGrid::March {
   }
 
   void run() {
-    grid.node(0, 0).p = place.apex;
+    grid.node(0, 0).p = pose.apex;
     grid.node(0, 0).known = true;
     bool any = true;
     for (int far = 1; any && far <= grid.most_; ++far) {
@@ -248,7 +247,7 @@ struct MarchedGrid::March {
               !rods || stop == RodStop::rim || stop == RodStop::hole || stop == RodStop::cut;
           if (margin > 0 && !grid.known(i, j) && ends &&
               ((su != 0 && grid.present(i - su, j)) || (sv != 0 && grid.present(i, j - sv))))
-            go_beyond(i, j);
+            extend_past_rim(i, j);
           any = any || grid.present(i, j);
           if (j == 0) break;
         }
@@ -256,22 +255,22 @@ struct MarchedGrid::March {
   }
 };
 
-MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
+MarchedGrid::MarchedGrid(const Surface& surface, const NetPose& pose, const Barriers& lines,
                          double least_angle, double chord, int most, int margin)
     : MarchedGrid(chord, most) {
-  March{*this, surface, place, &lines, nullptr, least_angle, margin}.run();
+  March{*this, surface, pose, &lines, nullptr, least_angle, margin}.run();
 }
 
-MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead)
+MarchedGrid::MarchedGrid(const Surface& surface, const NetPose& pose, const MarchedGrid& lead)
     : MarchedGrid(lead.chord_ / 2, 2 * lead.most_) {
-  March{*this, surface, place, nullptr, &lead}.run();
+  March{*this, surface, pose, nullptr, &lead}.run();
 }
 
-Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& place,
+Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPose& pose,
                                     std::shared_ptr<const Barriers> lines, double least_angle,
                                     double chord_mm, int most) {
-  MarchedGrid grid(surface, place, *lines, least_angle, chord_mm, most, net_reach);
-  const MarchedGrid fine(surface, place, grid);
+  MarchedGrid grid(surface, pose, *lines, least_angle, chord_mm, most, net_reach);
+  const MarchedGrid fine(surface, pose, grid);
   double narrowest = M_PI_2;
   for (int j = -most; j <= most; ++j)
     for (int i = -most; i <= most; ++i) {
@@ -285,7 +284,7 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& plac
       if (fine.known(2 * i, 2 * j)) continue;
       if (node.known) node.stop = RodStop::surface;
       node.known = node.to_u = node.to_v = node.on_u = node.on_v = false;
-      node.beyond = 0;
+      node.past_rim = 0;
       if (i > -most) grid.node(i - 1, j).to_u = grid.node(i - 1, j).on_u = false;
       if (j > -most) grid.node(i, j - 1).to_v = grid.node(i, j - 1).on_v = false;
     }
@@ -297,9 +296,9 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& plac
       grid.node(i, j).p = (4 * fine.at(2 * i, 2 * j).p - grid.at(i, j).p) / 3;
     }
   if (!any)
-    return invalid("no rod leaves the apex ({:.4g}, {:.4g}, {:.4g}) mm: {}", place.apex.x(),
-                   place.apex.y(), place.apex.z(), text_of(grid.at(1, 0).stop));
-  MarchedNet net(std::move(grid), std::move(lines), place.outside);
+    return invalid("no rod leaves the apex ({:.4g}, {:.4g}, {:.4g}) mm: {}", pose.apex.x(),
+                   pose.apex.y(), pose.apex.z(), text_of(grid.at(1, 0).stop));
+  MarchedNet net(std::move(grid), std::move(lines), pose.outside);
   net.least_angle_ = narrowest;
   return net;
 }
@@ -318,14 +317,14 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
             first_j = int(std::floor(v / h)) + 1 - net_reach;
   NetNodes nodes;
   std::array<bool, width * width> have{};
-  const auto place = [&](int a, int b) { return std::size_t(b * width + a); };
+  const auto index = [&](int a, int b) { return std::size_t(b * width + a); };
   const auto within = [](int a, int b) { return a >= 0 && a < width && b >= 0 && b < width; };
   // nodes that are connected to (i, j)
   std::array<std::array<int, 2>, width * width> open;
   std::size_t count = 0;
   const auto take = [&](int a, int b) {
-    nodes[place(a, b)] = grid_.at(first_i + a, first_j + b).p;
-    have[place(a, b)] = true;
+    nodes[index(a, b)] = grid_.at(first_i + a, first_j + b).p;
+    have[index(a, b)] = true;
     open[count++] = {a, b};
   };
   take(i - first_i, j - first_j);
@@ -333,7 +332,7 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
   for (std::size_t k = 0; k < count; ++k) {
     const auto [a, b] = open[k];
     for (const auto& [da, db] : neighbours)
-      if (within(a + da, b + db) && !have[place(a + da, b + db)] &&
+      if (within(a + da, b + db) && !have[index(a + da, b + db)] &&
           grid_.linked(first_i + a, first_j + b, da, db))
         take(a + da, b + db);
   }
@@ -344,13 +343,13 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
     const std::size_t so_far = count;
     for (int b = 0; b < width; ++b)
       for (int a = 0; a < width; ++a) {
-        if (before[place(a, b)]) continue;
+        if (before[index(a, b)]) continue;
         int degree = -1, times = 0;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (const auto& [da, db] : neighbours) {
           int known = 0;
           while (known < 4 && within(a + (known + 1) * da, b + (known + 1) * db) &&
-                 before[place(a + (known + 1) * da, b + (known + 1) * db)])
+                 before[index(a + (known + 1) * da, b + (known + 1) * db)])
             ++known;
           if (known - 1 < degree || known == 0) continue;
           if (known - 1 > degree) sum.setZero(), times = 0;
@@ -359,12 +358,12 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
               {{1, 0, 0, 0}, {2, -1, 0, 0}, {3, -3, 1, 0}, {4, -6, 4, -1}}};
           for (int k = 0; k < known; ++k)
             sum += weights[std::size_t(degree)][std::size_t(k)] *
-                   nodes[place(a + (k + 1) * da, b + (k + 1) * db)];
+                   nodes[index(a + (k + 1) * da, b + (k + 1) * db)];
           ++times;
         }
         if (times == 0) continue;
-        nodes[place(a, b)] = sum / times;
-        have[place(a, b)] = true;
+        nodes[index(a, b)] = sum / times;
+        have[index(a, b)] = true;
         ++count;
       }
     if (count == so_far) return std::nullopt;

@@ -30,13 +30,13 @@ std::string text_of(RodStop stop);
 /// - A node is not computed if its rod would cross a line of the mesh, leave the requested part, or
 ///   cross another rod at less than the least angle.
 /// - Outside rims and holes, on the continued surface, `margin` more nodes are computed
-///   (Node::beyond). They are used to interpolate between the last nodes and the rim.
+///   (Node::past_rim). They are used to interpolate between the last nodes and the rim.
 class MarchedGrid {
  public:
   struct Node {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
     bool known = false;
-    char beyond = 0;                  ///< number of nodes outside a rim or hole; 0: not outside
+    char past_rim = 0;                ///< number of nodes outside a rim or hole; 0: not outside
     bool to_u = false, to_v = false;  ///< a rod connects it to node (i + 1, j), (i, j + 1)
     bool on_u = false, on_v = false;  ///< a rod or its continuation past its end connects them
     /// computed from both neighbours, or as the geodesic of its u-rod or v-rod
@@ -46,10 +46,10 @@ class MarchedGrid {
 
   /// Computes nodes up to `most` chords from the apex and `margin` nodes outside rims. `lines`: the
   /// lines of the mesh; `least_angle`: between rods, rad; `chord`: h, mm.
-  MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
+  MarchedGrid(const Surface& surface, const NetPose& pose, const Barriers& lines,
               double least_angle, double chord, int most, int margin = 0);
   /// The grid of half the chord on the part that `lead` covers; the same rods are geodesics.
-  MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead);
+  MarchedGrid(const Surface& surface, const NetPose& pose, const MarchedGrid& lead);
 
   double chord() const { return chord_; }
   int most() const { return most_; }
@@ -59,7 +59,7 @@ class MarchedGrid {
   }
   bool known(int i, int j) const { return at(i, j).known; }
   /// Whether the node is computed, inside or outside a rim.
-  bool present(int i, int j) const { return at(i, j).known || at(i, j).beyond > 0; }
+  bool present(int i, int j) const { return at(i, j).known || at(i, j).past_rim > 0; }
   /// Whether a rod connects node (i, j) to its neighbour (i + step_u, j + step_v), one of these
   /// +-1.
   bool joined(int i, int j, int step_u, int step_v) const {
@@ -97,7 +97,7 @@ class MarchedNet final : public ChebyshevNet {
  public:
   /// `lines`: the lines of the mesh; `least_angle`: between rods, rad; `chord_mm`: h; `most`:
   /// largest number of chords from the apex. Errors (bad_input): no rod leaves the apex.
-  static Result<MarchedNet> make(const Surface& surface, const NetPlace& place,
+  static Result<MarchedNet> make(const Surface& surface, const NetPose& pose,
                                  std::shared_ptr<const Barriers> lines, double least_angle,
                                  double chord_mm, int most);
 

@@ -21,11 +21,11 @@ namespace {
 using Triangle = std::array<int, 3>;
 using Triangles = std::vector<Triangle>;
 
-constexpr double one_place = 1e-5;   // distance of equal vertices, over the mesh's size
-constexpr double no_area = 1e-9;     // area over the square of the longest edge
-constexpr double folded_cos = 0.87;  // cosine between the directions from an edge: 30 degrees
-constexpr double least_up = 0.05;    // least z of a unit normal that faces up
-constexpr double farthest = 0.03;    // largest displacement of a vertex, over the mesh's size
+constexpr double equal_vertices = 1e-5;  // distance of equal vertices, over the mesh's size
+constexpr double no_area = 1e-9;         // area over the square of the longest edge
+constexpr double folded_cos = 0.87;      // cosine between the directions from an edge: 30 degrees
+constexpr double least_up = 0.05;        // least z of a unit normal that faces up
+constexpr double farthest = 0.03;        // largest displacement of a vertex, over the mesh's size
 
 double size_of(const Eigen::Matrix3Xd& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
@@ -44,7 +44,7 @@ std::string counted(std::size_t count, const char* one, const char* more) {
 
 /// Replaces vertices at the position of an earlier one by it. Returns their number.
 std::size_t join_near(const Eigen::Matrix3Xd& x, Triangles& triangles) {
-  const double near = one_place * size_of(x);
+  const double near = equal_vertices * size_of(x);
   PointGrid grid(std::max(near, 1e-300));
   std::vector<int> now(std::size_t(x.cols()));
   std::size_t joined = 0;

@@ -249,7 +249,7 @@ Result<MeshSurface> MeshSurface::fitted(const TriangleMesh& mesh, const Barriers
     patch->reach = std::max(radius / 2, 1.1 * mesh.longest_edge(centre));
     if (std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); }))
       patch->reach = std::max(patch->reach, rim_reach * detail_mm);
-    patch->beside_crease = std::ranges::any_of(around, [&](int k) { return mesh.on_crease(k); });
+    patch->near_crease = std::ranges::any_of(around, [&](int k) { return mesh.on_crease(k); });
     // no patch where another sheet of the mesh is next to this one
     bool alone = true;
     for (int corner = 0; corner < 8 && alone; ++corner) {
@@ -306,7 +306,7 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm,
 /// Distance of p from a patch's centre, around the end of a crease if one is between them.
 double MeshSurface::distance(const Patch& patch, const Eigen::Vector3d& p) const {
   const double straight = (p - patch.centre).norm();
-  if (!patch.beside_crease || straight > patch.reach || !lines_.crosses_crease(patch.centre, p))
+  if (!patch.near_crease || straight > patch.reach || !lines_.crosses_crease(patch.centre, p))
     return straight;
   double around = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& tip : lines_.tips())

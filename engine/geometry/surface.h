@@ -24,7 +24,7 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(
     double size);
 
 /// An error of a mesh (bad_input), with the position.
-tl::unexpected<Error> mesh_error(const std::string& what, const Eigen::Vector3d& place);
+tl::unexpected<Error> mesh_error(const std::string& what, const Eigen::Vector3d& position);
 
 /// One connected, two-sided sheet of triangles, all with the same orientation, that does not meet
 /// itself.
@@ -134,7 +134,7 @@ class MeshSurface {
     double radius = 1;                       ///< radius of the fit
     double reach = 0;                        ///< distance at which its weight becomes zero
     double slope = 1;                        ///< |grad| of the height above it at its centre
-    bool beside_crease = false;              ///< whether a crease is within its radius
+    bool near_crease = false;                ///< whether a crease is within its radius
   };
   explicit MeshSurface(double reach) : near_(reach / 2) {}
   static Result<MeshSurface> fitted(const TriangleMesh& mesh, const Barriers& lines,

@@ -140,10 +140,10 @@ struct ChordGrid::Axis {
 };
 
 /// Computes a geodesic in equal chords, until it is `margin` chords outside the part that is used.
-Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPlace& place,
+Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPose& pose,
                                             Eigen::Vector3d along, double chord, int margin,
                                             int most) {
-  Axis axis{{place.apex}};
+  Axis axis{{pose.apex}};
   std::vector<Eigen::Vector3d>& points = axis.points;
   for (int out = 0; out < margin && int(points.size()) <= most;) {
     const Eigen::Vector3d here = points.back();
@@ -156,7 +156,7 @@ Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPla
     }
     along = (*next - here).normalized();
     points.push_back(*next);
-    out = place.outside(*next) < 0 ? 0 : out + 1;
+    out = pose.outside(*next) < 0 ? 0 : out + 1;
   }
   if (int(points.size()) <= most) return axis;
   const Eigen::Vector3d& last = points.back();
@@ -169,18 +169,18 @@ Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPla
 void ChordGrid::put_axis(const Axis& axis, int step_u, int step_v) {
   const int last = int(axis.points.size()) - 1;
   for (int k = 0; k <= last; ++k) {
-    points_[place(k * step_u, k * step_v)] = axis.points[std::size_t(k)];
-    nodes_[place(k * step_u, k * step_v)] = axis.ends && k == last ? Node::lost : Node::known;
+    points_[index(k * step_u, k * step_v)] = axis.points[std::size_t(k)];
+    nodes_[index(k * step_u, k * step_v)] = axis.ends && k == last ? Node::lost : Node::known;
   }
 }
 
-Result<ChordGrid> ChordGrid::make(const Surface& surface, const NetPlace& place, double chord_mm,
+Result<ChordGrid> ChordGrid::make(const Surface& surface, const NetPose& pose, double chord_mm,
                                   int margin, int most) {
-  const Eigen::Vector3d along_v = place.up.cross(place.along_u);
-  const std::array<Eigen::Vector3d, 4> directions{place.along_u, along_v, -place.along_u, -along_v};
+  const Eigen::Vector3d along_v = pose.up.cross(pose.along_u);
+  const std::array<Eigen::Vector3d, 4> directions{pose.along_u, along_v, -pose.along_u, -along_v};
   std::array<Axis, 4> axes;
   for (std::size_t k = 0; k < 4; ++k) {
-    TRY(axis, geodesic(surface, place, directions[k], chord_mm, margin, most));
+    TRY(axis, geodesic(surface, pose, directions[k], chord_mm, margin, most));
     axes[k] = std::move(*axis);
   }
   ChordGrid grid;
@@ -196,20 +196,20 @@ Result<ChordGrid> ChordGrid::make(const Surface& surface, const NetPlace& place,
   grid.put_axis(axes[2], -1, 0);
   grid.put_axis(axes[3], 0, -1);
   for (const int sign_u : {1, -1})
-    for (const int sign_v : {1, -1}) grid.fill(surface, place, margin, sign_u, sign_v);
-  grid.join_inside(place);
+    for (const int sign_v : {1, -1}) grid.fill(surface, pose, margin, sign_u, sign_v);
+  grid.join_inside(pose);
   return grid;
 }
 
 /// Computes one quadrant, row by row away from the axes.
-void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, int sign_u,
+void ChordGrid::fill(const Surface& surface, const NetPose& pose, int margin, int sign_u,
                      int sign_v) {
   const int most_u = sign_u > 0 ? last_u() : -first_u(),
             most_v = sign_v > 0 ? last_v() : -first_v();
   // number of nodes outside the part that is used, for this row and the row before
   std::vector<int> out(std::size_t(most_u) + 1), before(out.size());
   const auto depth = [&](int i, int j, int least) {
-    return place.outside(at(i, j)) < 0 ? 0 : least + 1;
+    return pose.outside(at(i, j)) < 0 ? 0 : least + 1;
   };
   for (int i = 1; i <= most_u; ++i)
     out[std::size_t(i)] = depth(sign_u * i, 0, out[std::size_t(i) - 1]);
@@ -221,7 +221,7 @@ void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, 
       int& here = out[std::size_t(i)];
       here = margin;
       const int least = std::min(before[std::size_t(i)], out[std::size_t(i) - 1]);
-      Node& state = nodes_[this->place(a, b)];
+      Node& state = nodes_[index(a, b)];
       // nodes past a folded or lost node are not computed
       for (const Node one : {node(a - sign_u, b), node(a, b - sign_v)})
         if (one == Node::folded || one == Node::lost) state = one;
@@ -235,29 +235,29 @@ void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, 
       state = Node::folded;
       if ((*p - A).cross(*p - B).norm() < least_sine * chord_ * chord_) continue;
       state = Node::known;
-      points_[this->place(a, b)] = *p;
+      points_[index(a, b)] = *p;
       here = depth(a, b, least);
     }
   }
 }
 
-void ChordGrid::join_inside(const NetPlace& place) {
+void ChordGrid::join_inside(const NetPose& pose) {
   inside_.assign(points_.size(), 0);
   std::vector<std::array<int, 2>> open{{0, 0}};
   while (!open.empty()) {
     const auto [i, j] = open.back();
     open.pop_back();
-    if (node(i, j) != Node::known || inside(i, j) || !(place.outside(at(i, j)) < 0)) continue;
-    inside_[this->place(i, j)] = 1;
+    if (node(i, j) != Node::known || inside(i, j) || !(pose.outside(at(i, j)) < 0)) continue;
+    inside_[index(i, j)] = 1;
     for (const auto& next : {std::array{i + 1, j}, {i - 1, j}, {i, j + 1}, {i, j - 1}})
       open.push_back(next);
   }
 }
 
-Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPlace& place, double chord_mm,
+Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPose& pose, double chord_mm,
                                     PartialNet* so_far) {
-  TRY(coarse, ChordGrid::make(surface, place, chord_mm, coarse_margin, most_nodes));
-  TRY(fine, ChordGrid::make(surface, place, chord_mm / 2, 2 * coarse_margin, 2 * most_nodes));
+  TRY(coarse, ChordGrid::make(surface, pose, chord_mm, coarse_margin, most_nodes));
+  TRY(fine, ChordGrid::make(surface, pose, chord_mm / 2, 2 * coarse_margin, 2 * most_nodes));
   std::vector<Eigen::Vector3d> points;
   for (int j = coarse->first_v(); j <= coarse->last_v(); ++j)
     for (int i = coarse->first_u(); i <= coarse->last_u(); ++i) {
@@ -281,7 +281,7 @@ bool SurfaceNet::known_about(int i, int j) const {
   return true;
 }
 
-void SurfaceNet::tell(PartialNet& so_far) const {
+void SurfaceNet::report_to(PartialNet& so_far) const {
   constexpr int every = 4;
   constexpr double narrow = 0.3;  // sine
   const auto here = [&](int i, int j) {
@@ -328,7 +328,7 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
               grid_.node(std::clamp(a, first_u(), last_u()), std::clamp(b, first_v(), last_v()));
           const Eigen::Vector3d& p = point(i, j);
           if (so_far) {
-            tell(*so_far);
+            report_to(*so_far);
             so_far->end = p;
           }
           const char* why =

@@ -12,7 +12,7 @@ namespace gridshell {
 
 /// Position and direction of a net on a surface. The u axis starts at `apex` along `along_u`, the v
 /// axis along up x along_u.
-struct NetPlace {
+struct NetPose {
   Eigen::Vector3d apex;         ///< a point of the surface, mm
   Eigen::Vector3d along_u, up;  ///< unit and orthogonal; `up` is the surface's normal
   /// Below zero at points of the surface that the net is to cover. NaN counts as outside.
@@ -56,10 +56,10 @@ class ChordGrid {
   };
   static constexpr double least_sine = 0.12;
 
-  /// Computes all nodes of the part that is used (NetPlace::outside below zero) and `margin` nodes
+  /// Computes all nodes of the part that is used (NetPose::outside below zero) and `margin` nodes
   /// around it. `chord_mm`: h. Errors (bad_input): an axis is still inside that part after `most`
   /// nodes.
-  static Result<ChordGrid> make(const Surface& surface, const NetPlace& place, double chord_mm,
+  static Result<ChordGrid> make(const Surface& surface, const NetPose& pose, double chord_mm,
                                 int margin, int most);
 
   double chord() const { return chord_; }
@@ -70,24 +70,24 @@ class ChordGrid {
   bool has(int i, int j) const {
     return i >= first_u() && i <= last_u() && j >= first_v() && j <= last_v();
   }
-  Node node(int i, int j) const { return has(i, j) ? nodes_[place(i, j)] : Node::unasked; }
-  const Eigen::Vector3d& at(int i, int j) const { return points_[place(i, j)]; }
+  Node node(int i, int j) const { return has(i, j) ? nodes_[index(i, j)] : Node::unasked; }
+  const Eigen::Vector3d& at(int i, int j) const { return points_[index(i, j)]; }
   /// Marks a node as lost.
-  void forget(int i, int j) { nodes_[place(i, j)] = Node::lost; }
+  void forget(int i, int j) { nodes_[index(i, j)] = Node::lost; }
   /// Whether node (i, j) is in the part that is used and connected to the apex by nodes of it.
-  bool inside(int i, int j) const { return has(i, j) && inside_[place(i, j)] != 0; }
+  bool inside(int i, int j) const { return has(i, j) && inside_[index(i, j)] != 0; }
 
  private:
   ChordGrid() = default;
-  std::size_t place(int i, int j) const {
+  std::size_t index(int i, int j) const {
     return std::size_t(j + before_v_) * std::size_t(columns_) + std::size_t(i + before_u_);
   }
   struct Axis;
   void put_axis(const Axis& axis, int step_u, int step_v);
-  static Result<Axis> geodesic(const Surface& surface, const NetPlace& place, Eigen::Vector3d along,
+  static Result<Axis> geodesic(const Surface& surface, const NetPose& pose, Eigen::Vector3d along,
                                double chord, int margin, int most);
-  void fill(const Surface& surface, const NetPlace& place, int margin, int sign_u, int sign_v);
-  void join_inside(const NetPlace& place);
+  void fill(const Surface& surface, const NetPose& pose, int margin, int sign_u, int sign_v);
+  void join_inside(const NetPose& pose);
 
   double chord_ = 0;
   int before_u_ = 0, before_v_ = 0, columns_ = 0, rows_ = 0;
@@ -112,7 +112,7 @@ class SurfaceNet final : public ChebyshevNet {
   /// `chord_mm`: h of the coarser grid. Errors (bad_input): those of ChordGrid::make(); a net that
   /// ends inside the part that is used, with the position and what may help. On such an error
   /// `so_far`, if given, receives the part that was computed.
-  static Result<SurfaceNet> make(const Surface& surface, const NetPlace& place, double chord_mm,
+  static Result<SurfaceNet> make(const Surface& surface, const NetPose& pose, double chord_mm,
                                  PartialNet* so_far = nullptr);
 
   Result<NetPoint> at(double u, double v) const override;
@@ -129,7 +129,7 @@ class SurfaceNet final : public ChebyshevNet {
   SurfaceNet(ChordGrid grid, std::vector<Eigen::Vector3d> points)
       : grid_(std::move(grid)), points_(std::move(points)) {}
   Result<void> check_whole(PartialNet* so_far) const;
-  void tell(PartialNet& so_far) const;
+  void report_to(PartialNet& so_far) const;
   bool known_about(int i, int j) const;
   const Eigen::Vector3d& point(int i, int j) const {
     const int columns = grid_.last_u() - grid_.first_u() + 1;

@@ -41,7 +41,7 @@ std::string put_own(const RodValue& own, Preset& preset) {
         own.key, did_you_mean(own.key, known));
   }
   bool* flag = field->as<bool>(preset);
-  const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
+  const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.contains(own.value);
   if (!fits) return fmt::format("{}: got {:g}, expected {}", own.key, own.value, allowed(*field));
   if (const auto wrong = magnitude_error(own.value); !wrong.empty())
     return got_text(own.key, fmt::format("{:g}", own.value), wrong);

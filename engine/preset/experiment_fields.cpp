@@ -31,21 +31,21 @@ void add_indentation(FieldList<Indentation> list) {
                        "are 0",
                        [](const I& of) { return !of.requested(); });
   };
-  const auto by_place = [&]() -> FieldList<I>& {
+  const auto by_position = [&]() -> FieldList<I>& {
     return pushed().unused({"joint"}, "[indentation] joint names the joint that is pushed",
                            [](const I& of) { return !of.joint.empty(); });
   };
   list.add<&I::at>("joint that is pushed: the one nearest to the pole, or the highest");
-  by_place().unused({"latitude_deg"}, "[indentation] latitude_deg replaces it",
-                    [](const I& of) { return of.latitude_deg < 90; });
+  by_position().unused({"latitude_deg"}, "[indentation] latitude_deg replaces it",
+                       [](const I& of) { return of.latitude_deg < 90; });
   list.add<&I::latitude_deg>(
       between(-90, 90),
       "latitude of the joint pushed, seen from the net's origin; below 90 it replaces `at`");
-  by_place();
+  by_position();
   list.add<&I::longitude_deg>(between(-360, 360),
                               "longitude of the joint pushed, from +x towards +y");
-  by_place().unused({"latitude_deg"}, "at a latitude of 90 degrees there is no longitude",
-                    [](const I& of) { return of.latitude_deg >= 90; });
+  by_position().unused({"latitude_deg"}, "at a latitude of 90 degrees there is no longitude",
+                       [](const I& of) { return of.latitude_deg >= 90; });
   list.add<&I::joint>(between(-500, 500),
                       "indices of the joint pushed, instead of all of these; empty: not given")
       .shape("[i, j]");

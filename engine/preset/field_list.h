@@ -36,15 +36,15 @@ template <class T>
 requires std::is_enum_v<T> Member member_at(std::vector<T>& list) {
   return SomeWords{&list,
                    [](const void* at) {
-                     std::vector<int> places;
+                     std::vector<int> indices;
                      for (const T one : *static_cast<const std::vector<T>*>(at))
-                       places.push_back(int(one));
-                     return places;
+                       indices.push_back(int(one));
+                     return indices;
                    },
-                   [](void* at, const std::vector<int>& places) {
+                   [](void* at, const std::vector<int>& indices) {
                      auto& list = *static_cast<std::vector<T>*>(at);
                      list.clear();
-                     for (const int location : places) list.push_back(T(location));
+                     for (const int location : indices) list.push_back(T(location));
                    }};
 }
 
@@ -134,8 +134,8 @@ class FieldList : AnyFieldList {
   }
 
   /// Restricts all following rules to presets for which the condition is true.
-  FieldList& where(std::function<bool(const Preset&)> holds) {
-    return where_ = std::move(holds), *this;
+  FieldList& where(std::function<bool(const Preset&)> applies) {
+    return where_ = std::move(applies), *this;
   }
   /// Adds a rule whose function returns the error, or an empty text if there is none.
   template <class Say>
@@ -145,10 +145,11 @@ class FieldList : AnyFieldList {
     });
     return *this;
   }
-  template <class Holds>
-  FieldList& rule(RuleKind kind, Keys others, std::string_view what, Holds holds) {
-    add_rule(kind, others, what,
-             [holds](const Preset& preset, const void* one) { return ask(holds, preset, one); });
+  template <class Predicate>
+  FieldList& rule(RuleKind kind, Keys others, std::string_view what, Predicate applies) {
+    add_rule(kind, others, what, [applies](const Preset& preset, const void* one) {
+      return ask(applies, preset, one);
+    });
     return *this;
   }
   template <class... Arguments>
@@ -159,13 +160,13 @@ class FieldList : AnyFieldList {
   FieldList& refused(Keys others, Arguments... arguments) {
     return rule(RuleKind::refused, others, std::move(arguments)...);
   }
-  template <class Holds>
-  FieldList& needs_twist(std::string_view why, Holds holds) {
-    return rule(RuleKind::needs_twist, {}, why, holds);
+  template <class Predicate>
+  FieldList& needs_twist(std::string_view why, Predicate applies) {
+    return rule(RuleKind::needs_twist, {}, why, applies);
   }
-  template <class Holds>
-  FieldList& needs_equilibrium(std::string_view why, Holds holds) {
-    return rule(RuleKind::needs_equilibrium, {}, why, holds);
+  template <class Predicate>
+  FieldList& needs_equilibrium(std::string_view why, Predicate applies) {
+    return rule(RuleKind::needs_equilibrium, {}, why, applies);
   }
 
   /// Makes the last key unused unless `kind`, the first key of the list, has one of these values.

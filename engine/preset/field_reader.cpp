@@ -31,9 +31,9 @@ std::optional<double> real_of(const toml::node& value) {
 
 // only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero
 std::string points_error(const Points& points) {
-  constexpr std::size_t most_places = 100000;
-  if (points.size() > most_places)
-    return fmt::format("{} points, more than {}", points.size(), most_places);
+  constexpr std::size_t most_points = 100000;
+  if (points.size() > most_points)
+    return fmt::format("{} points, more than {}", points.size(), most_points);
   for (const auto& point : points)
     for (const double value : point)
       if (!(std::abs(value) <= largest_magnitude))
@@ -176,14 +176,14 @@ class Reader {
   std::string read(const toml::node& value, double& number) const {
     const auto real = real_of(value);
     if (!real) return kind_ + type_text(value);
-    if (!field_.range.holds(*real)) return "out of range";
+    if (!field_.range.contains(*real)) return "out of range";
     number = *real;
     return magnitude_error(*real);
   }
   std::string read(const toml::node& value, int& number) const {
     const auto* integer = value.as_integer();
     if (!integer) return kind_ + type_text(value);
-    if (!field_.range.holds(double(integer->get()))) return "out of range";
+    if (!field_.range.contains(double(integer->get()))) return "out of range";
     number = int(integer->get());
     return "";
   }

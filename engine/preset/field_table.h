@@ -21,7 +21,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false;  ///< low itself is not allowed
 
-  bool holds(double value) const {
+  bool contains(double value) const {
     return (low_open ? value > low : value >= low) && value <= high;
   }
 };
@@ -38,11 +38,11 @@ inline Range between(double low, double high) { return {.low = low, .high = high
 
 /// Access to a member whose type is an enum (OneWord) or a list of enumerators (SomeWords), as
 /// indices into Field::words.
-template <class Places>
+template <class Indices>
 struct WordMember {
   void* member;
-  Places (*get)(const void* member);
-  void (*set)(void* member, const Places& places);
+  Indices (*get)(const void* member);
+  void (*set)(void* member, const Indices& indices);
 };
 using OneWord = WordMember<int>;
 using SomeWords = WordMember<std::vector<int>>;

@@ -16,12 +16,12 @@ using Points = std::vector<std::vector<double>>;
 /// The kinds of [[step]]: what a user can do to a shell.
 enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, brace, open };
 
-enum class IndentationPlace { pole, highest };
+enum class IndentationPosition { pole, highest };
 enum class Direction { inward, outward };
 enum class Lateral { free, held };
 /// A push at one joint of the actuated shell.
 struct Indentation {
-  IndentationPlace at = IndentationPlace::pole;
+  IndentationPosition at = IndentationPosition::pole;
   double latitude_deg = 90, longitude_deg = 0;  ///< joint nearest to them; 90: `at` is used
   std::vector<int> joint;  ///< indices (i, j) of the joint; empty: the joint is given otherwise
   Direction direction = Direction::inward;

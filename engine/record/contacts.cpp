@@ -32,8 +32,8 @@ void ShapeContacts::lay_out(std::size_t k) {
                     end = std::size_t(of_.segments_[k].end);
   Chord& chord = chord_[k];
   chord.along = (x_[end] - x_[begin]).stableNormalized();
-  chord.node[0] = of_.places_[begin];
-  chord.node[1] = of_.places_[end];
+  chord.node[0] = of_.joint_nodes_[begin];
+  chord.node[1] = of_.joint_nodes_[end];
   // least cosine dot / |edge|, as the two squares of the fraction: no division per edge
   double dot2 = 1, edge2 = 1;
   bool back = false;
@@ -118,18 +118,18 @@ void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
     return (point == s.begin ? s.from : s.to) < 0;
   };
   const auto apart = [&] { return (x_[point_a] - x_[point_b]).norm(); };
-  const bool one_place =
+  const bool same_point =
       node(point_a) == node(point_b) ||
       (search.a != search.b && ends(a, point_a) && ends(b, point_b) && apart() < search.radii);
-  if (!one_place || search.joints == 2) return;
+  if (!same_point || search.joints == 2) return;
   const auto away = [&](const Segment& s, int point) {
-    const int beside = point == s.begin ? point + 1 : point - 1;
-    return (x_[beside] - x_[point]).stableNormalized();
+    const int neighbour = point == s.begin ? point + 1 : point - 1;
+    return (x_[neighbour] - x_[point]).stableNormalized();
   };
   // twice the sine of half the angle
   const double spread = (away(a, point_a) - away(b, point_b)).norm();
   const double half = 0.5 * std::min(length(a), length(b));
-  const double across = beside(a.rod) + beside(b.rod);
+  const double across = half_width(a.rod) + half_width(b.rod);
   const double straight = std::min(half, 2 * across / std::max(spread, 1e-12));
   search.joint[search.joints++] = {along_[point_a], along_[point_b],
                                    std::max(0.5 * of_.joint_diameter_mm_, straight)};
@@ -141,7 +141,7 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   search.b = b;
   const Segment &one = segment(a), &other = segment(b);
   search.radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
-  search.gap = beside(one.rod) + beside(other.rod);
+  search.gap = half_width(one.rod) + half_width(other.rod);
   search.apart = one.rod == other.rod ? std::numbers::pi * search.radii : -infinity;
   if (const auto [first, last] = of_.ends_[std::size_t(one.rod)]; node(first) == node(last))
     search.round = along_[last] - along_[first];
@@ -150,7 +150,7 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
     return search;
   }
   for (const int point : {one.begin, one.end})
-    for (const int beside : {other.begin, other.end}) add_joint(search, point, beside);
+    for (const int end : {other.begin, other.end}) add_joint(search, point, end);
   return search;
 }
 
@@ -250,7 +250,7 @@ void ShapeContacts::joints(bool by_all_pairs) {
   const std::size_t count = of_.axes_.size();
   std::vector<Vector3d> foot(count), top(count);
   std::vector<Box> boxes(count);
-  const auto has_cylinder = [&](int k) { return of_.axes_[std::size_t(k)].beside[2] >= 0; };
+  const auto has_cylinder = [&](int k) { return of_.axes_[std::size_t(k)].neighbours[2] >= 0; };
   for (std::size_t k = 0; k < count; ++k) {
     foot[k] = top[k] = nodes_.col(of_.axes_[k].node);
     top[k] += of_.joint_height_mm_ * normal_of(of_.axes_[k]);
@@ -323,7 +323,7 @@ ContactSearch::ContactSearch(const Layout& layout)
     ends_.push_back({first, first + last});
     for (const int node : rod) {
       const int joint = axis[std::size_t(node)];
-      places_.push_back(joint < 0 ? node : axes_[std::size_t(joint)].node);
+      joint_nodes_.push_back(joint < 0 ? node : axes_[std::size_t(joint)].node);
     }
     for (int k = 0, begin = 0; k <= last; ++k) {
       const int joint = axis[std::size_t(rod[k])];
@@ -335,15 +335,15 @@ ContactSearch::ContactSearch(const Layout& layout)
       // a ring ends at the joint at which it starts
       const bool ring = last > 1 && rod.front() == rod.back();
       if (joint < 0 || (ring && k == last)) continue;
-      auto& beside = axes_[joint].beside;
-      const std::size_t free = beside[0] < 0 ? 0 : 2;
-      if (beside[free] >= 0) continue;
-      beside[free] = rod[std::size_t(k > 0 ? k - 1 : ring ? last - 1 : 0)];
-      beside[free + 1] = rod[std::size_t(std::min(k + 1, last))];
+      auto& neighbours = axes_[joint].neighbours;
+      const std::size_t free = neighbours[0] < 0 ? 0 : 2;
+      if (neighbours[free] >= 0) continue;
+      neighbours[free] = rod[std::size_t(k > 0 ? k - 1 : ring ? last - 1 : 0)];
+      neighbours[free + 1] = rod[std::size_t(std::min(k + 1, last))];
     }
   }
   for (Axis& at : axes_)
-    if (at.beside[2] < 0) at.beside.fill(-1);
+    if (at.neighbours[2] < 0) at.neighbours.fill(-1);
 }
 
 Contacts ContactSearch::in(const Eigen::Matrix3Xd& nodes) const {

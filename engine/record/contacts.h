@@ -77,11 +77,11 @@ class ContactSearch {
   /// The node of a joint, and its neighbours on two of its rods; -1: fewer than two rods.
   struct Axis {
     int node = 0;
-    std::array<int, 4> beside{-1, -1, -1, -1};
+    std::array<int, 4> neighbours{-1, -1, -1, -1};
   };
   std::vector<int> points_;  ///< node of each point of a rod, rod after rod
   /// Like points_, with the node of its first rod for all rods of a joint.
-  std::vector<int> places_;
+  std::vector<int> joint_nodes_;
   std::vector<Segment> segments_;
   std::vector<std::array<int, 2>> ends_;  ///< first and last point of each rod
   std::vector<double> radius_mm_;         ///< radius of each rod; of a lath half its diagonal

@@ -59,15 +59,15 @@ std::string with_error(double value, double error, const char* unit) {
   const std::string end = *unit ? fmt::format(" {}", unit) : "";
   if (!std::isfinite(error)) return fmt::format("{:.4g}{} (error not known)", value, end);
   if (error == 0) return fmt::format("{:.9g}{}", value, end);
-  const double place = std::floor(std::log10(error));
-  if (place < 1) {
-    const int digits = int(std::clamp(-place, 0.0, 12.0));
+  const double exponent = std::floor(std::log10(error));
+  if (exponent < 1) {
+    const int digits = int(std::clamp(-exponent, 0.0, 12.0));
     return fmt::format("{:.{}f} ± {}{}", value, digits,
                        error < 1 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error),
                        end);
   }
   // two digits of the error, and the digits of the value down to the last of them
-  const double step = std::pow(10, place - 1);
+  const double step = std::pow(10, exponent - 1);
   return fmt::format("{:.0f} ± {:.0f}{}", std::nearbyint(value / step) * step,
                      std::nearbyint(error / step) * step, end);
 }

@@ -233,12 +233,12 @@ class Gltf {
   }
 
   /// Adds one sphere per joint, at its position in the first shape.
-  void add_joints(const std::vector<Eigen::Matrix3Xd>& places) {
+  void add_joints(const std::vector<Eigen::Matrix3Xd>& shapes) {
     const double radius_mm = 0.5 * layout_.joint_diameter_mm;
     json_["meshes"].push_back(MorphingMesh("joint", ball(radius_mm), 1, buffer_).mesh({}));
     const std::size_t mesh = json_["meshes"].size() - 1;
     for (std::size_t k = 0; k < layout_.joints.size(); ++k) {
-      const Eigen::Vector3d at = places.front().col(Eigen::Index(k));
+      const Eigen::Vector3d at = shapes.front().col(Eigen::Index(k));
       const record::Joint& joint = layout_.joints[k];
       moving_.push_back(add_node({{"name", fmt::format("joint {} {}", joint.i, joint.j)},
                                   {"mesh", mesh},
@@ -247,8 +247,8 @@ class Gltf {
   }
 
   /// Adds the animation from key shape to key shape, at equal intervals of time.
-  void animate(const std::vector<Eigen::Matrix3Xd>& places, double seconds) {
-    const std::size_t keys = places.size();
+  void animate(const std::vector<Eigen::Matrix3Xd>& shapes, double seconds) {
+    const std::size_t keys = shapes.size();
     std::vector<float> times, weights;
     for (std::size_t k = 0; k < keys; ++k) {
       times.push_back(float(seconds * double(k) / double(keys - 1)));
@@ -265,7 +265,7 @@ class Gltf {
     for (std::size_t k = 0; k < moving_.size(); ++k) {
       Eigen::Matrix3Xd positions(3, Eigen::Index(keys));
       for (std::size_t key = 0; key < keys; ++key)
-        positions.col(Eigen::Index(key)) = places[key].col(Eigen::Index(k));
+        positions.col(Eigen::Index(key)) = shapes[key].col(Eigen::Index(k));
       add(moving_[k], "translation", buffer_.vectors(positions, 0));
     }
     json_["animations"] =
@@ -314,7 +314,7 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
   TRY(fine, model_detail(run));
   const record::Layout& layout = run.layout;
   Gltf gltf(layout, title);
-  std::vector<Eigen::Matrix3Xd> places;
+  std::vector<Eigen::Matrix3Xd> shapes;
   const auto keys = even_frames(run.frames.size(), fine->shapes);
   const std::vector<int> joints = nodes_of_joints(layout);
   const record::Frame& start = run.frames[keys.front()];
@@ -324,7 +324,7 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
   for (const std::size_t key : keys) {
     const record::Frame& frame = run.frames[key];
     if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
-    places.push_back(frame.nodes(Eigen::all, joints));
+    shapes.push_back(frame.nodes(Eigen::all, joints));
     if (key == keys.front()) continue;
     rods.add(tubes(layout, frame, fine->sides));
     if (!layout.cells.empty()) skin.add(cells(layout, frame));
@@ -332,8 +332,8 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
   gltf.add_morphing("rods", rods.mesh({}));
   if (!layout.cells.empty())
     gltf.add_morphing("cells", skin.mesh(colours_of(run.frames.back().cell_K)));
-  gltf.add_joints(places);
-  if (keys.size() > 1) gltf.animate(places, seconds);
+  gltf.add_joints(shapes);
+  if (keys.size() > 1) gltf.animate(shapes, seconds);
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
   return std::move(gltf).bytes();
 }

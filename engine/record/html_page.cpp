@@ -148,10 +148,10 @@ Json forces_json(const record::Layout& layout, const Eigen::Matrix3Xd& forces_N)
 }
 
 /// Nodes on which a reaction acts, which the page marks as supports.
-Json held_json(const record::Layout& layout, const record::Frame& frame) {
-  Json held = Json::array();
-  for (const Json& one : forces_json(layout, frame.reactions_N)) held.push_back(one[0]);
-  return held;
+Json supports_json(const record::Layout& layout, const record::Frame& frame) {
+  Json supports = Json::array();
+  for (const Json& one : forces_json(layout, frame.reactions_N)) supports.push_back(one[0]);
+  return supports;
 }
 
 Json layout_json(const record::Layout& layout) {
@@ -212,7 +212,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
                               {"K", std::move(K)},
                               {"braces", braces_json(run.layout, frame)},
                               {"loads", forces_json(run.layout, frame.loads_N)},
-                              {"held", held_json(run.layout, frame)},
+                              {"held", supports_json(run.layout, frame)},
                               {"figures", figures(frame)}});
   }
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
@@ -222,8 +222,8 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
     data.replace(at, 2, "<\\/");
   std::string page = page_template;
-  const std::string place = "/*RUN*/";
-  page.replace(page.find(place), place.size(), data);
+  const std::string marker = "/*RUN*/";
+  page.replace(page.find(marker), marker.size(), data);
   return page;
 }
 

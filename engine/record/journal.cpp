@@ -45,13 +45,13 @@ void skip(ByteReader& in, std::uint8_t kind) {
 }
 
 /// Position and size of a payload in the file.
-struct Place {
+struct ByteRange {
   std::uint64_t at = 0, size = 0;
 };
 
 struct Record {
   std::uint32_t kind = 0;
-  Place place;
+  ByteRange range;
   std::string payload;
   std::uint64_t next = 0;
 };
@@ -72,8 +72,8 @@ std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at, Chec
   sum.add(std::string_view(*rest).substr(0, length));
   if (ByteReader(std::string_view(*rest).substr(length)).number<std::uint64_t>() != sum.value())
     return std::nullopt;
-  found.place = {at + before_payload, length};
-  found.next = found.place.at + length + after_payload;
+  found.range = {at + before_payload, length};
+  found.next = found.range.at + length + after_payload;
   rest->resize(length);
   found.payload = std::move(*rest);
   return found;
@@ -117,7 +117,7 @@ class JournalFrames : public FrameSource {
   /// nodes; frames with another number are left out.
   void find_those_of(const Layout& layout) {
     struct Found {
-      Place place;
+      ByteRange range;
       Eigen::Index nodes;  // number of nodes; -1: the frame does not fit the layout
       Frame head;
     };
@@ -126,29 +126,29 @@ class JournalFrames : public FrameSource {
       const auto one = unpacked_frame(record.payload, journal_.head.columns);
       const Eigen::Index nodes = one ? one->nodes.cols() : -1;
       const bool fits = one && check_layout(layout, nodes) && check_frame(layout, *one, 0, nodes);
-      found[index] = {record.place, fits ? nodes : -1, fits ? without_nodes(*one) : Frame()};
+      found[index] = {record.range, fits ? nodes : -1, fits ? without_nodes(*one) : Frame()};
     });
     Eigen::Index nodes = -1;
     for (auto& [index, one] : found) {
       if (nodes < 0) nodes = one.nodes;
       if (nodes < 0 || one.nodes != nodes) continue;
-      places_.push_back(one.place);
+      ranges_.push_back(one.range);
       heads_.push_back(std::move(one.head));
     }
   }
   const Frame* head(std::size_t k) const override { return &heads_[k]; }
-  std::size_t size() const override { return places_.size(); }
-  Result<Frame> read(std::size_t k) const override { return frame_at(places_[k]); }
+  std::size_t size() const override { return ranges_.size(); }
+  Result<Frame> read(std::size_t k) const override { return frame_at(ranges_[k]); }
 
  private:
-  Result<Frame> frame_at(const Place& place) const {
-    const auto bytes = journal_.file.read(place.at, place.size);
+  Result<Frame> frame_at(const ByteRange& range) const {
+    const auto bytes = journal_.file.read(range.at, range.size);
     if (!bytes) return fail(Fault::io, "cannot read a frame of the journal");
     return unpacked_frame(*bytes, journal_.head.columns);
   }
 
   OpenJournal journal_;
-  std::vector<Place> places_;
+  std::vector<ByteRange> ranges_;
   std::vector<Frame> heads_;
 };
 

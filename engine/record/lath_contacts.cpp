@@ -7,10 +7,10 @@
 namespace gridshell::record {
 
 Eigen::Vector3d ShapeContacts::normal_of(const ContactSearch::Axis& at) const {
-  const auto& beside = at.beside;
-  if (beside[0] < 0) return Vector3d::Zero();
-  return (nodes_.col(beside[1]) - nodes_.col(beside[0]))
-      .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
+  const auto& neighbours = at.neighbours;
+  if (neighbours[0] < 0) return Vector3d::Zero();
+  return (nodes_.col(neighbours[1]) - nodes_.col(neighbours[0]))
+      .cross(nodes_.col(neighbours[3]) - nodes_.col(neighbours[2]))
       .stableNormalized();
 }
 
@@ -32,7 +32,7 @@ void ShapeContacts::lay_sections(const Segment& s) {
 }
 
 /// Half the extent of a rod across the normal: half the width of a lath, else the radius.
-double ShapeContacts::beside(int rod) const {
+double ShapeContacts::half_width(int rod) const {
   const bool lath = !of_.half_mm_.empty() && of_.half_mm_[std::size_t(rod)][0] > 0;
   return lath ? of_.half_mm_[std::size_t(rod)][0] : of_.radius_mm_[std::size_t(rod)];
 }
@@ -56,7 +56,8 @@ bool ShapeContacts::side_by_side(int a, int b) const {
       low[k] = std::min(low[k], at - reach), high[k] = std::max(high[k], at + reach);
     }
   }
-  return std::max(low[0] - high[1], low[1] - high[0]) > beside(of[0]->rod) + beside(of[1]->rod);
+  return std::max(low[0] - high[1], low[1] - high[0]) >
+         half_width(of[0]->rod) + half_width(of[1]->rod);
 }
 
 double ShapeContacts::gap_of_laths(const Search& search, int edge_a, int edge_b,

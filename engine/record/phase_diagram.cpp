@@ -60,8 +60,8 @@ void count(const PhasePoint& point, PhaseRegion& region) {
     region.with[k] += point.classes[k].states > 0;
   region.at_rest += point.at_rest;
   region.met_first_order += point.first_order.met;
-  region.with_more += point.beyond_paper() > 0;
-  region.more_states += point.beyond_paper();
+  region.with_more += point.not_in_paper() > 0;
+  region.more_states += point.not_in_paper();
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ std::optional<StateCount> state_count(const PointResult& result, const std::stri
   return count;
 }
 
-int PhasePoint::beyond_paper() const {
+int PhasePoint::not_in_paper() const {
   int more = 0;
   for (const auto& [kind, word] : words_of<StateClass>())
     more += kind == StateClass::other ? of(kind).states : std::max(0, of(kind).states - 1);

@@ -76,7 +76,7 @@ struct PhasePoint {
   const StateCount& of(StateClass kind) const { return classes[std::size_t(kind)]; }
   /// Number of states that the paper did not draw: those of no class, and all but one of each
   /// class.
-  int beyond_paper() const;
+  int not_in_paper() const;
 };
 
 using PhaseDiagram = std::vector<PhasePoint>;

@@ -61,7 +61,7 @@ class ShapeContacts {
   };
 
   /// Node of a point; all rods of a joint have the same.
-  int node(int point) const { return of_.places_[point]; }
+  int node(int point) const { return of_.joint_nodes_[point]; }
   const Segment& segment(int k) const { return of_.segments_[k]; }
   double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
   /// Box of edges begin to end - 1 of a segment with a tree.
@@ -72,7 +72,7 @@ class ShapeContacts {
   Vector3d normal_of(const ContactSearch::Axis& at) const;
   void lay_sections(const Segment& s);
   bool side_by_side(int a, int b) const;
-  double beside(int rod) const;
+  double half_width(int rod) const;
   double gap_of_laths(const Search& search, int edge_a, int edge_b,
                       const NearestPoints& near) const;
   void grow_tree(int k);

@@ -258,8 +258,8 @@ std::string to_vtp(const Shape& shape) {
   Eigen::Matrix3Xd on_rods = on;
   for (const int node : joints)
     if (on.col(node).allFinite()) on_rods.col(node).setZero();
-  Eigen::Matrix3Xd held = on(Eigen::all, nodes);
-  held.leftCols(long(points)) = on_rods(Eigen::all, nodes).leftCols(long(points));
+  Eigen::Matrix3Xd reactions = on(Eigen::all, nodes);
+  reactions.leftCols(long(points)) = on_rods(Eigen::all, nodes).leftCols(long(points));
 
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
@@ -274,7 +274,7 @@ std::string to_vtp(const Shape& shape) {
             along_rods(shape, [](const auto&... of) { return record::curvature_per_mm(of...); }));
   put_array(text, "axial_force_N", along_rods(shape, record::axial_force_N));
   put_array(text, "stress_MPa", along_rods(shape, record::stress_MPa));
-  put_array(text, "reaction_N", held);
+  put_array(text, "reaction_N", reactions);
   text += "</PointData>\n<CellData>\n";
   put_array(text, "rod", rod_of);
   put_array(text, "K_rad", K);
@@ -306,7 +306,7 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
       fmt::format_to(into(edges), "{} {}\n", rod[k - 1], rod[k]);
   for (const int node : layout.supports) fmt::format_to(into(supports), "{}\n", node);
   const long nodes = frames.empty() ? 0 : long(frames.front().nodes.cols());
-  const long edge_count = record::edges_of_rods(layout), held = long(layout.supports.size());
+  const long edge_count = record::edges_of_rods(layout), supported = long(layout.supports.size());
   const bool forces = !frames.empty() && frames.back().axial_force_N.size() > 0;
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" "
@@ -318,22 +318,22 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
       return hyperslab(escape_xml(trajectory) + ":" + name, index, frames.size(), values,
                        components);
     };
-    const std::string places =
+    const std::string geometry =
         "<Geometry GeometryType=\"XYZ\">\n" + of("/nodes", nodes, 3) + "</Geometry>\n";
     fmt::format_to(into(text),
                    "<Grid Name=\"frame_{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
                    "<Time Value=\"{}\"/>\n<Grid Name=\"rods_{}\">\n",
                    index, frames[k].progress, index);
-    text += topology("rods", index, "Polyline", 2, edge_count, edges) + places;
+    text += topology("rods", index, "Polyline", 2, edge_count, edges) + geometry;
     if (forces)
       text += "<Attribute Name=\"axial_force_N\" AttributeType=\"Scalar\" Center=\"Cell\">\n" +
               of("/axial_force_N", edge_count, 0) + "</Attribute>\n";
     text += "</Grid>\n";
-    if (forces && held > 0) {
+    if (forces && supported > 0) {
       fmt::format_to(into(text), "<Grid Name=\"supports_{}\">\n", index);
-      text += topology("supports", index, "Polyvertex", 1, held, supports) + places;
+      text += topology("supports", index, "Polyvertex", 1, supported, supports) + geometry;
       text += "<Attribute Name=\"reaction_N\" AttributeType=\"Vector\" Center=\"Cell\">\n" +
-              of("/reactions_N", held, 3) + "</Attribute>\n</Grid>\n";
+              of("/reactions_N", supported, 3) + "</Attribute>\n</Grid>\n";
     }
     text += "</Grid>\n";
   }
@@ -351,9 +351,9 @@ std::string to_csv(const Shape& shape) {
     const auto force = axial_force_N(shape.layout, shape.frame, rod);
     const auto stress = stress_MPa(shape.layout, shape.frame, rod);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const Eigen::Vector3d at = shape.frame.nodes.col(nodes[k]), holds = on.col(nodes[k]);
+      const Eigen::Vector3d at = shape.frame.nodes.col(nodes[k]), reaction = on.col(nodes[k]);
       csv.line(int(rod), int(k), at.x(), at.y(), at.z(), curvature[k], force[k], stress[k],
-               holds.x(), holds.y(), holds.z());
+               reaction.x(), reaction.y(), reaction.z());
     }
   }
   return std::move(csv).text();

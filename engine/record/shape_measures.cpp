@@ -241,9 +241,9 @@ std::string name_of_group(const SymmetryGroup& group) {
   if (n.inversion > 0) return n.axis > 0 ? "C2h_axis" : n.diagonal > 0 ? "C2h_diagonal" : "Ci";
   if (n.improper > 0) return n.axis > 0 ? "D2d_axes" : n.diagonal > 0 ? "D2d_diagonals" : "S4";
   if (n.quarter > 0) return "D4";
-  const std::string place = n.level_axis > 0 ? "ax" : "diagonal";
-  if (n.half > 0) return "D2_" + place + (n.level_axis > 0 ? "es" : "s");
-  return "C2_level_" + place + (n.level_axis > 0 ? "is" : "");
+  const std::string axis = n.level_axis > 0 ? "ax" : "diagonal";
+  if (n.half > 0) return "D2_" + axis + (n.level_axis > 0 ? "es" : "s");
+  return "C2_level_" + axis + (n.level_axis > 0 ? "is" : "");
 }
 
 std::vector<SymmetryGroup> subgroups(const std::vector<MeshSymmetry>& symmetries) {

@@ -316,7 +316,7 @@ tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) cons
   return fail(fault, "cannot write '{}': {}", file_.string(), why);
 }
 
-bool PowerLaw::holds() const {
+bool PowerLaw::is_confirmed() const {
   constexpr double close = 0.02;
   double worst = 0;
   for (std::size_t k = 0; k < law.size(); ++k)

@@ -99,7 +99,7 @@ struct PowerLaw {
   double same_side = 0;
   /// Whether the results follow the law: the scatter is below 0.1, each exponent's error is below
   /// 0.05 max(1, |exponent|), and the residuals are random or all at most 0.02.
-  bool holds() const;
+  bool is_confirmed() const;
   /// At each point: value of the law, result, value of the first key.
   std::vector<double> law, found, first_key;
 };

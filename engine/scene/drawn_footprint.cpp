@@ -99,9 +99,9 @@ RodNetwork network_of(const preset::NetworkData& file, preset::EndKind ends,
   for (const auto& row : file.supports) network.supported[std::size_t(row[0])] = 1;
   for (const int point : file.free) network.free[std::size_t(point)] = 1;
   for (const auto& row : file.joint_laws) network.joined.insert(int(row[0]));
-  network.hold = hold_as(ends);
-  for (const auto& row : file.holds)
-    network.holds[int(2 * row[0] + row[1])] = hold_as(preset::EndKind(int(row[2])));
+  network.end_constraint = rod_end_of(ends);
+  for (const auto& row : file.end_constraints)
+    network.end_constraints[int(2 * row[0] + row[1])] = rod_end_of(preset::EndKind(int(row[2])));
   for (const auto& row : file.springs) network.springs[int(row[0])] = vector_of(row, 1);
   return network;
 }
@@ -148,9 +148,9 @@ void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points,
 }
 
 /// Positions projected on the plane that fits them best.
-Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
-  const Eigen::Vector3d middle = places.rowwise().mean();
-  const Eigen::Matrix3Xd about = places.colwise() - middle;
+Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& positions) {
+  const Eigen::Vector3d middle = positions.rowwise().mean();
+  const Eigen::Matrix3Xd about = positions.colwise() - middle;
   const auto axes = eigen_pairs(about * about.transpose());
   return axes.vectors.rightCols<2>().transpose() * about;
 }
@@ -238,7 +238,7 @@ Result<CurveDesign> curve_design(const preset::Preset& preset) {
   return CurveDesign{std::move(domain), std::move(*map), scale};
 }
 
-RodEnd hold_as(preset::EndKind kind) {
+RodEnd rod_end_of(preset::EndKind kind) {
   switch (kind) {
     case preset::EndKind::pinned:
       return RodEnd::pinned;

@@ -26,7 +26,7 @@ struct CurveDesign {
 Result<CurveDesign> curve_design(const preset::Preset& preset);
 
 /// The end condition that a name denotes.
-RodEnd hold_as(preset::EndKind kind);
+RodEnd rod_end_of(preset::EndKind kind);
 
 // A footprint from a file of rods, their supports and the prescribed displacement of the supports.
 

@@ -17,35 +17,35 @@ namespace {
 
 /// The net as a planar graph.
 struct Graph {
-  Eigen::Matrix3Xd place;                // positions of nodes in the flat, mm
-  std::vector<std::vector<int>> beside;  // the nodes around each, anticlockwise
+  Eigen::Matrix3Xd positions;                // positions of nodes in the flat, mm
+  std::vector<std::vector<int>> neighbours;  // the nodes around each, anticlockwise
 
   explicit Graph(const Footprint& footprint) {
     const std::size_t joints = footprint.joints.size(), rods = footprint.rods.size();
-    place.setZero(3, Eigen::Index(joints + 2 * rods));
-    beside.resize(joints + 2 * rods);
+    positions.setZero(3, Eigen::Index(joints + 2 * rods));
+    neighbours.resize(joints + 2 * rods);
     for (std::size_t k = 0; k < joints; ++k)
-      place.col(Eigen::Index(k)).head<2>() << footprint.joints[k].u, footprint.joints[k].v;
+      positions.col(Eigen::Index(k)).head<2>() << footprint.joints[k].u, footprint.joints[k].v;
     for (std::size_t r = 0; r < rods; ++r) lay(footprint.rods[r], int(joints + 2 * r));
-    for (std::size_t node = 0; node < beside.size(); ++node) sort_around(int(node));
+    for (std::size_t node = 0; node < neighbours.size(); ++node) sort_around(int(node));
   }
 
  private:
   void lay(const FootprintRod& rod, int begin) {
     std::vector<int> nodes = rod.joints;
-    place.col(begin).head<2>() = rod.at(rod.span.begin);
-    place.col(begin + 1).head<2>() = rod.at(rod.span.end);
+    positions.col(begin).head<2>() = rod.at(rod.span.begin);
+    positions.col(begin + 1).head<2>() = rod.at(rod.span.end);
     if (!rod.closed() && rod.begin != RodEnd::joined) nodes.insert(nodes.begin(), begin);
     if (!rod.closed() && rod.end != RodEnd::joined) nodes.push_back(begin + 1);
     for (std::size_t k = 1; k < nodes.size(); ++k) {
-      beside[std::size_t(nodes[k - 1])].push_back(nodes[k]);
-      beside[std::size_t(nodes[k])].push_back(nodes[k - 1]);
+      neighbours[std::size_t(nodes[k - 1])].push_back(nodes[k]);
+      neighbours[std::size_t(nodes[k])].push_back(nodes[k - 1]);
     }
   }
 
   void sort_around(int node) {
-    std::ranges::sort(beside[std::size_t(node)], {}, [&](int other) {
-      const Eigen::Vector3d edge = place.col(other) - place.col(node);
+    std::ranges::sort(neighbours[std::size_t(node)], {}, [&](int other) {
+      const Eigen::Vector3d edge = positions.col(other) - positions.col(node);
       return std::atan2(edge.y(), edge.x());
     });
   }
@@ -56,7 +56,7 @@ std::vector<int> walk(const Graph& graph, int a, int b, std::set<std::pair<int, 
   std::vector<int> chain;
   while (walked.insert({a, b}).second) {
     chain.push_back(a);
-    const std::vector<int>& around = graph.beside[std::size_t(b)];
+    const std::vector<int>& around = graph.neighbours[std::size_t(b)];
     const auto back = std::ranges::find(around, a);
     a = std::exchange(b, *(back == around.begin() ? around.end() - 1 : back - 1));
   }
@@ -103,7 +103,7 @@ void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& ac
     for (const int corner : face.corners) {
       if (corner == a || corner == b) continue;
       actions.push_back(
-          {.node = corner, .pressure = -pressure / double(corners), .beside = {a, b}});
+          {.node = corner, .pressure = -pressure / double(corners), .corners = {a, b}});
     }
   }
 }
@@ -111,23 +111,23 @@ void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& ac
 Result<void> check_pressure(const LoadCase& load, const std::string& key,
                             const Footprint& footprint) {
   if (load.pressure_N_mm2 == 0) return {};
-  std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
+  std::set<int> fixed(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const int joints = int(footprint.joints.size());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    if (is_fixed(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));
-    if (is_fixed(footprint.rods[r].end)) held.insert(joints + 2 * int(r) + 1);
+    if (is_fixed(footprint.rods[r].begin)) fixed.insert(joints + 2 * int(r));
+    if (is_fixed(footprint.rods[r].end)) fixed.insert(joints + 2 * int(r) + 1);
   }
   for (const FaceSide& side : edge_of(faces_of(footprint)))
     for (const int node : side) {
-      if (held.contains(node)) continue;
-      const std::string place =
+      if (fixed.contains(node)) continue;
+      const std::string where =
           node < joints ? fmt::format("joint [{}, {}]", footprint.joints[std::size_t(node)].i,
                                       footprint.joints[std::size_t(node)].j)
                         : fmt::format("end of rod {}", (node - joints) / 2);
       return invalid(
           "{} pressure: got a free {} at the edge of the faces, expected a fixed edge: such a "
           "load has no energy; one on the edge has, edge_direction = \"pressure\"",
-          key, place);
+          key, where);
     }
   return {};
 }
@@ -158,12 +158,12 @@ std::vector<Face> faces_of(const Footprint& footprint) {
     Face face{std::move(corners), on_boundary};
     // the outside is traversed clockwise; a chain without area is no face
     const double least = 1e-9 * footprint.spacing * footprint.spacing;
-    if (area_of(face, graph.place).z() > least) faces.push_back(std::move(face));
+    if (area_of(face, graph.positions).z() > least) faces.push_back(std::move(face));
   };
   const auto is_edge_point = [&](int node) { return node >= int(footprint.joints.size()); };
   std::set<std::pair<int, int>> walked;
-  for (int a = 0; a < int(graph.beside.size()); ++a)
-    for (const int b : graph.beside[std::size_t(a)]) {
+  for (int a = 0; a < int(graph.neighbours.size()); ++a)
+    for (const int b : graph.neighbours[std::size_t(a)]) {
       std::vector<int> chain = walk(graph, a, b, walked);
       const auto first = std::ranges::find_if(chain, is_edge_point);
       if (chain.empty()) continue;
@@ -226,7 +226,7 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
       actions.push_back({.node = ends[0],
                          .anchor = 3 * Eigen::Vector3d::UnitZ(),
                          .pressure = -turning,
-                         .beside = {ends[1], -1}});
+                         .corners = {ends[1], -1}});
     }
     const Eigen::Vector3d wind_force = load.wind_N_mm2 * wind.dot(area.normalized()) * area;
     const double corners = double(face.corners.size());

@@ -8,7 +8,7 @@
 #include "engine/footprint/domains.h"
 #include "engine/geometry/mesh_repair.h"
 #include "engine/scene/mesh_net.h"
-#include "engine/scene/surface_place.h"
+#include "engine/scene/surface_pose.h"
 
 namespace gridshell {
 namespace {
@@ -38,13 +38,13 @@ Result<TriangleMesh> sheet_of(const preset::SurfaceData& file, std::vector<std::
 /// The start of the net that the preset gives.
 Result<NetStart> given_start(const preset::Net& requested, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm) {
-  TRY(place, given_place(requested, shape, outside, allowed_mm));
+  TRY(pose, given_pose(requested, shape, outside, allowed_mm));
   NetStart start;
-  start.place = std::move(*place);
-  const Eigen::Vector3d& up = start.place.up;
+  start.pose = std::move(*pose);
+  const Eigen::Vector3d& up = start.pose.up;
   const Eigen::Vector3d x = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
   start.axis_deg =
-      std::atan2(up.cross(x).dot(start.place.along_u), x.dot(start.place.along_u)) / degree;
+      std::atan2(up.cross(x).dot(start.pose.along_u), x.dot(start.pose.along_u)) / degree;
   return start;
 }
 
@@ -78,9 +78,9 @@ Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
                            std::max(apex_off * spacing_mm, 2 * smooth->largest_distance())));
     report->start = std::move(*start);
   }
-  const NetPlace& place = report->start.place;
+  const NetPose& pose = report->start.pose;
   const double chord = net_chord(*mesh, spacing_mm);
-  TRY(net_made, MarchedNet::make(shape.surface, place, lines, least_angle, chord,
+  TRY(net_made, MarchedNet::make(shape.surface, pose, lines, least_angle, chord,
                                  chords_across(*mesh, chord)));
   const auto net = std::make_shared<const MarchedNet>(std::move(*net_made));
   report->fit_mm = smooth->largest_distance();
@@ -95,7 +95,7 @@ Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
   NetDesign design;
   design.domain = reached_part(net);
   design.net = net;
-  TRY_DO(lay_flat(requested, place, design));
+  TRY_DO(lay_flat(requested, pose, design));
   design.report = std::move(report);
   return design;
 }

@@ -51,9 +51,9 @@ struct Trial {
     if (up.z() < 0) up = -up;
     if (!(up.z() > steepest)) return std::nullopt;
     const Eigen::Vector3d x = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
-    start.place = {*apex, Eigen::AngleAxisd(axis_deg * degree, up) * x, up, outside};
+    start.pose = {*apex, Eigen::AngleAxisd(axis_deg * degree, up) * x, up, outside};
     start.axis_deg = axis_deg;
-    const MarchedGrid grid(surface, start.place, lines, least_angle, chord, most);
+    const MarchedGrid grid(surface, start.pose, lines, least_angle, chord, most);
     double left_out = 0;
     for (const AreaSample& one : left_out_of(grid, lines, samples)) left_out += one.area;
     start.reached = 1 - left_out;
@@ -90,24 +90,24 @@ std::vector<Eigen::Vector3d> spread(const std::vector<AreaSample>& samples, std:
   for (const AreaSample& one : samples) middle += one.area * one.at;
   const auto nearest = std::ranges::min_element(
       samples, {}, [&](const AreaSample& one) { return (one.at - middle).norm(); });
-  std::vector<Eigen::Vector3d> places{nearest->at};
+  std::vector<Eigen::Vector3d> positions{nearest->at};
   std::vector<double> far(samples.size(), INFINITY);
-  while (places.size() < std::min(count, samples.size())) {
+  while (positions.size() < std::min(count, samples.size())) {
     for (std::size_t k = 0; k < samples.size(); ++k)
-      far[k] = std::min(far[k], (samples[k].at - places.back()).norm());
-    places.push_back(samples[std::size_t(std::ranges::max_element(far) - far.begin())].at);
+      far[k] = std::min(far[k], (samples[k].at - positions.back()).norm());
+    positions.push_back(samples[std::size_t(std::ranges::max_element(far) - far.begin())].at);
   }
-  return places;
+  return positions;
 }
 
 bool alike(const NetStart& one, const NetStart& other, double size) {
   const double turned = std::abs(std::remainder(one.axis_deg - other.axis_deg, 90));
-  return (one.place.apex - other.place.apex).norm() < 0.1 * size && turned < 20;
+  return (one.pose.apex - other.pose.apex).norm() < 0.1 * size && turned < 20;
 }
 
 std::string text_of(const NetStart& start) {
   // adding 0.0 turns -0 into 0
-  const Eigen::Array3d apex = (10 * start.place.apex).array().round() / 10 + 0.0;
+  const Eigen::Array3d apex = (10 * start.pose.apex).array().round() / 10 + 0.0;
   return fmt::format("apex_mm = [{:.1f}, {:.1f}, {:.1f}], axis = \"x\", axis_deg = {:.1f}",
                      apex.x(), apex.y(), apex.z(), start.axis_deg);
 }
@@ -185,7 +185,7 @@ std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lin
 Result<std::vector<NetStart>> best_starts(const Surface& surface, const TriangleMesh& mesh,
                                           const Barriers& lines, const Surface::Function& outside,
                                           double least_angle, double spacing_mm, bool by_angle) {
-  constexpr std::size_t places = 40, followed = 5;
+  constexpr std::size_t starts = 40, followed = 5;
   constexpr double turn_deg = 15, given_up = 0.05;  // fraction of the area, for a larger angle
   const double size = mesh.size(), chord = std::max(spacing_mm, size / 24);
   const auto trial_on = [&](double h) {
@@ -194,9 +194,9 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   const Trial trial = trial_on(chord);
   const auto samples = area_samples(mesh, std::sqrt(mesh.area() / 400));
   std::vector<NetStart> found;
-  for (const Eigen::Vector3d& place : spread(samples, places))
+  for (const Eigen::Vector3d& apex : spread(samples, starts))
     for (double turned = 0; turned < 90; turned += turn_deg)
-      if (auto start = trial.from(place, turned, samples)) found.push_back(std::move(*start));
+      if (auto start = trial.from(apex, turned, samples)) found.push_back(std::move(*start));
   if (found.empty()) return invalid("no part of the mesh faces up inside the boundary");
   Ranking rank{by_angle};
   const auto measure = [&](const std::vector<NetStart>& all) {
@@ -216,7 +216,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
     double step = size / 12, turn = turn_deg / 2;
     for (int round = 0; round < 3; ++round, step /= 2, turn /= 2) {
       const NetStart middle = one;
-      const Eigen::Vector3d across = middle.place.up.cross(middle.place.along_u);
+      const Eigen::Vector3d across = middle.pose.up.cross(middle.pose.along_u);
       for (const auto& [along, left, by] : {std::array{1., 0., 0.},
                                             {-1., 0., 0.},
                                             {0., 1., 0.},
@@ -224,7 +224,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
                                             {0., 0., 1.},
                                             {0., 0., -1.}}) {
         auto moved =
-            trial.from(middle.place.apex + step * (along * middle.place.along_u + left * across),
+            trial.from(middle.pose.apex + step * (along * middle.pose.along_u + left * across),
                        middle.axis_deg + by * turn, samples);
         if (moved && rank(*moved) > rank(one)) one = std::move(*moved);
       }
@@ -237,7 +237,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   const auto fine = area_samples(mesh, last.chord);
   const double promised = Ranking::area_of(kinds.front());
   for (NetStart& one : kinds)
-    if (auto measured = last.from(one.place.apex, one.axis_deg, fine)) one = std::move(*measured);
+    if (auto measured = last.from(one.pose.apex, one.axis_deg, fine)) one = std::move(*measured);
   if (by_angle || Ranking::area_of(kinds.front()) < promised - mistaken) {
     measure(kinds);
     std::ranges::stable_sort(kinds, better);

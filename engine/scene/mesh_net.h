@@ -34,7 +34,7 @@ std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lin
 
 /// Position and direction of the start of a net, and what the net reaches.
 struct NetStart {
-  NetPlace place;
+  NetPose pose;
   double axis_deg = 0;         ///< angle of the u-axis from x, as seen from above
   double reached = 0;          ///< fraction of the area
   double least_angle_deg = 0;  ///< smallest angle between rods

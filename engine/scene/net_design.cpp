@@ -11,7 +11,7 @@
 #include "engine/geometry/spline.h"
 #include "engine/geometry/surface.h"
 #include "engine/preset/consistency.h"
-#include "engine/scene/surface_place.h"
+#include "engine/scene/surface_pose.h"
 
 namespace gridshell {
 namespace {
@@ -150,14 +150,14 @@ Result<NetDesign> surface_design(const preset::Net& requested, double spacing_mm
   TRY(shape, surface_of(requested, spacing_mm));
   const Surface& surface = shape->surface;
   TRY(outside, outside_of(requested));
-  TRY(place, given_place(requested, *shape, *outside, 0.01 * spacing_mm));
-  TRY(made, SurfaceNet::make(surface, *place, spacing_mm / 8, so_far));
+  TRY(pose, given_pose(requested, *shape, *outside, 0.01 * spacing_mm));
+  TRY(made, SurfaceNet::make(surface, *pose, spacing_mm / 8, so_far));
   NetDesign design;
   const auto net = std::make_shared<const SurfaceNet>(std::move(*made));
   TRY(part, part_of(net, *outside));
   design.domain = std::move(*part);
   design.net = net;
-  TRY_DO(lay_flat(requested, *place, design));
+  TRY_DO(lay_flat(requested, *pose, design));
   return design;
 }
 

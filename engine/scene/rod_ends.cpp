@@ -16,7 +16,7 @@ const FootprintRod& rod_of(const Scene& scene, Eigen::Index end) {
   return scene.footprint.rods[std::size_t(end / 2)];
 }
 
-RodEnd hold_of(const Scene& scene, Eigen::Index end) {
+RodEnd constraint_of(const Scene& scene, Eigen::Index end) {
   return is_begin(end) ? rod_of(scene, end).begin : rod_of(scene, end).end;
 }
 
@@ -58,7 +58,8 @@ void apply_ends(const ShellEnds& ends, Scene& scene) {
   if (scene.motion.end_far.size() > 0) scene.motion.end_far += ends.at - before.at;
   scene.motion.end = ends.at;
   for (Eigen::Index k = 0; k < ends.at.cols(); ++k) {
-    if (fixes_direction(hold_of(scene, k))) scene.motion.end_tangent.col(k) = ends.direction.col(k);
+    if (fixes_direction(constraint_of(scene, k)))
+      scene.motion.end_tangent.col(k) = ends.direction.col(k);
     if (ends.leg[k] != before.leg[k]) put_leg(ends.leg[k], k, scene);
   }
 }
@@ -74,7 +75,8 @@ ShellEnds ends_of(const Scene& scene) {
     const Interval& span = rod_of(scene, k).span;
     const double joint = next_joint(scene, k);
     ends.leg[k] = is_begin(k) ? joint - span.begin : span.end - joint;
-    if (fixes_direction(hold_of(scene, k))) ends.direction.col(k) = scene.motion.end_tangent.col(k);
+    if (fixes_direction(constraint_of(scene, k)))
+      ends.direction.col(k) = scene.motion.end_tangent.col(k);
   }
   ends.diameter =
       Eigen::Map<const Eigen::VectorXd>(scene.diameters_mm.data(), scene.diameters_mm.size());
@@ -84,7 +86,7 @@ ShellEnds ends_of(const Scene& scene) {
 preset::Points table_of(const Scene& scene, const ShellEnds& ends) {
   preset::Points table;
   for (Eigen::Index k = 0; k < ends.at.cols(); ++k) {
-    if (!is_fixed(hold_of(scene, k))) continue;
+    if (!is_fixed(constraint_of(scene, k))) continue;
     const FootprintRod& rod = rod_of(scene, k);
     const auto at = ends.at.col(k), along = ends.direction.col(k);
     table.push_back({rod.family == Family::u ? 0.0 : 1.0, double(rod.index), double(k % 2), at.x(),
@@ -107,7 +109,7 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
   using Name = std::tuple<int, int, int>;
   std::map<Name, std::vector<Eigen::Index>> named;
   for (Eigen::Index k = 0; k < scene.motion.end.cols(); ++k)
-    if (is_fixed(hold_of(scene, k)))
+    if (is_fixed(constraint_of(scene, k)))
       named[{rod_of(scene, k).family == Family::u ? 0 : 1, rod_of(scene, k).index, int(k % 2)}]
           .push_back(k);
   ShellEnds ends = ends_of(scene);
@@ -127,7 +129,7 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
     if (!(row[6] > 0)) return wrong("got a leg without length, expected above 0 mm");
     ends.at.col(k) << row[3], row[4], row[5];
     ends.leg[k] = row[6];
-    if (!fixes_direction(hold_of(scene, k))) continue;
+    if (!fixes_direction(constraint_of(scene, k))) continue;
     const Eigen::Vector3d along(row[7], row[8], row[9]);
     if (!(along.norm() > 1e-6))
       return wrong("tx, ty, tz: got no direction, expected that of the prescribed end");
@@ -193,7 +195,7 @@ Eigen::Matrix2Xd within_boundary(const Footprint& footprint, const RodMesh& mesh
   return flat;
 }
 
-void set_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& places) {
+void set_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& positions) {
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = scene.footprint.rods[r];
     for (std::size_t k = 0; rod.has_tails() && k < mesh.rods[r].size(); ++k) {
@@ -203,16 +205,16 @@ void set_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& places
       const double fraction =
           before ? (rod.span.begin - at) / rod.tail_begin : (at - rod.span.end) / rod.tail_end;
       const Eigen::Index end = 2 * Eigen::Index(r) + (before ? 0 : 1);
-      places.col(mesh.rods[r][k]) =
+      positions.col(mesh.rods[r][k]) =
           (1 - fraction) * scene.motion.end.col(end) + fraction * scene.motion.end_far.col(end);
     }
   }
 }
 
 Result<Eigen::Matrix3Xd> positions_on_net(const Scene& scene, const RodMesh& mesh) {
-  auto places = points_on(*scene.net, within_boundary(scene.footprint, mesh));
-  if (places) set_tails(scene, mesh, *places);
-  return places;
+  auto positions = points_on(*scene.net, within_boundary(scene.footprint, mesh));
+  if (positions) set_tails(scene, mesh, *positions);
+  return positions;
 }
 
 }  // namespace gridshell

@@ -61,7 +61,7 @@ Result<void> add_second_ring(double length_mm, Scene& scene);
 Eigen::Matrix2Xd within_boundary(const Footprint& footprint, const RodMesh& mesh);
 
 /// Moves the nodes of tails to the straight lines between their two pins at the end of the motion.
-void set_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& places);
+void set_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& positions);
 
 /// Positions on the scene's net of the nodes of a mesh without ghosts; tails as in set_tails().
 /// Errors: those of the net.

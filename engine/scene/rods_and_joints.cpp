@@ -228,9 +228,9 @@ void centre_edges(const preset::Preset& preset, Scene& scene) {
   for (std::size_t joint = 0; joint < rods.size(); ++joint) {
     FootprintJoint& here = scene.footprint.joints[joint];
     const JointLaw& law = scene.rods.law(int(joint));
-    const bool held =
+    const bool connected =
         scene.rod_model == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
-    here.centred = rods[joint].size() > 1 && (bolted || held || here.eccentricity != 0);
+    here.centred = rods[joint].size() > 1 && (bolted || connected || here.eccentricity != 0);
   }
 }
 

@@ -79,7 +79,7 @@ void free_rings(Scene& scene) {
 
 /// Sets the prescribed directions of ends: from those in the flat to the net's tangents; without a
 /// net they remain as drawn. `ends`: (u, v) of the edge points.
-Result<void> hold_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
+Result<void> set_end_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     const FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
@@ -111,11 +111,11 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
   // C maps the original boundary and the edge points to the actuated ones
   TRY(actuated, points_on(*scene.net, ring));
-  TRY(held, points_on(*scene.net, ends));
+  TRY(ends_on_net, points_on(*scene.net, ends));
   scene.original_boundary = scene.flat.all(ring);
   scene.actuated_boundary = std::move(*actuated);
   scene.motion.begin = scene.flat.all(ends);
-  scene.motion.end = std::move(*held);
+  scene.motion.end = std::move(*ends_on_net);
   if (preset.ends.rings == preset::Rings::free) free_rings(scene);
   return {};
 }
@@ -149,11 +149,11 @@ int joint_at(const Footprint& footprint, int i, int j) {
 }
 
 /// Whether all joints resist spin of the rods' sections from the joint's normal.
-bool holds_sections(const Scene& scene) {
-  const auto holds = [](const JointLaw& law) { return law.twist_Nmm > 0; };
+bool joints_resist_spin(const Scene& scene) {
+  const auto resists = [](const JointLaw& law) { return law.twist_Nmm > 0; };
   const auto& own = scene.rods.own_joints;
-  return std::ranges::all_of(own, [&](const auto& at) { return holds(at.second); }) &&
-         (holds(scene.rods.joints) || own.size() == scene.footprint.joints.size());
+  return std::ranges::all_of(own, [&](const auto& at) { return resists(at.second); }) &&
+         (resists(scene.rods.joints) || own.size() == scene.footprint.joints.size());
 }
 
 Result<Scene> scene_of(const preset::Preset& preset) {
@@ -162,11 +162,11 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::network)
     for (FootprintRod& rod : scene.footprint.rods)
       for (RodEnd* end : {&rod.begin, &rod.end})
-        if (*end == RodEnd::pinned) *end = hold_as(preset.ends.kind);
+        if (*end == RodEnd::pinned) *end = rod_end_of(preset.ends.kind);
   if (std::ranges::any_of(scene.footprint.rods, [](const FootprintRod& rod) {
         return fixes_direction(rod.begin) || fixes_direction(rod.end);
       }))
-    TRY_DO(hold_directions(edge_points(scene.footprint), scene));
+    TRY_DO(set_end_directions(edge_points(scene.footprint), scene));
   if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));
   TRY_DO(apply_ends_table(preset.ends.table, scene));
   TRY_DO(put_rods(preset, scene));
@@ -174,7 +174,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   TRY_DO(put_laws(preset, scene));
   centre_edges(preset, scene);
   const bool round = std::ranges::count(scene.laths_mm, 0) == long(scene.laths_mm.size());
-  if (round || !holds_sections(scene)) scene.laths_mm.clear();
+  if (round || !joints_resist_spin(scene)) scene.laths_mm.clear();
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,

@@ -151,19 +151,21 @@ bool Simulation::Walk::switch_branch(Event& event, std::vector<TimedState>& mome
   };
   constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // in scales
   bool found = false;
-  for (double beyond = nearest; !found && beyond < farthest && !watch_.cancelled(); beyond *= 2) {
-    found = switch_branch_to(at(beyond), last, event, moments);
-    if (at(beyond) == to_) break;
+  for (double distance = nearest; !found && distance < farthest && !watch_.cancelled();
+       distance *= 2) {
+    found = switch_branch_to(at(distance), last, event, moments);
+    if (at(distance) == to_) break;
   }
   if (!found || event.kind != Event::Kind::stability_lost || scene_.snap.requested ||
       !skipped_a_branch(last))
     return found;
   const NestedState far = shell_.state();
   const Event to_far = event;
-  for (double beyond = nearest / 2; beyond > nearest_by_far; beyond /= 2) {
+  for (double distance = nearest / 2; distance > nearest_by_far; distance /= 2) {
     shell_.back_to(far);
     shell_.start_path(last.t, last.state);
-    if (switch_branch_to(at(beyond), last, event, moments) && !skipped_a_branch(last)) return true;
+    if (switch_branch_to(at(distance), last, event, moments) && !skipped_a_branch(last))
+      return true;
     if (watch_.cancelled()) return false;
   }
   shell_.back_to(far);

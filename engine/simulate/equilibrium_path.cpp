@@ -100,7 +100,7 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
                             const Watch& watch) {
   Simulation& simulation = path.simulation;
   PathSegment segment{{}, simulation.shell().state().t, to, {}};
-  const auto begun = to < segment.from ? std::nullopt : simulation.limit_exceeded();
+  const auto begun = to < segment.from ? std::nullopt : simulation.exceeded_limit();
   segment.report = simulation.go(begun ? segment.from : to, watch, leaving, &segment);
   if (begun) {
     segment.report.end = outcome_of(begun->kind);
@@ -113,8 +113,8 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
                                const Watch& watch) {
   const PathSegment& segment = path.segments[sample.segment];
   const double t = sample.t;
-  const auto from = [&](const LoadStep& beside, bool unstable) {
-    return path.simulation.sample(t, beside, unstable, watch);
+  const auto from = [&](const LoadStep& nearest, bool unstable) {
+    return path.simulation.sample(t, nearest, unstable, watch);
   };
   const auto done = [&](const Report& report) {
     return report.end == Outcome::reached || watch.cancelled();

@@ -130,8 +130,8 @@ Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& 
   TRY(net, scene.blocks ? scene.blocks->closed(flat, 4 * spacing) : points_on(*scene.net, flat));
   set_tails(scene, mesh, *net);
   net->conservativeResize(3, mesh.nodes());
-  net->rightCols(mesh.beside_rods()) =
-      shell.motion().at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
+  net->rightCols(mesh.nodes_off_rods()) =
+      shell.motion().at(1).middleCols(mesh.rod_nodes(), mesh.nodes_off_rods());
   const Model& model = shell.model();
   State state = flat_state(model, mesh, shell.motion(), scene.flat);
   move_to(model, columns_of(mesh, model, *net), state);

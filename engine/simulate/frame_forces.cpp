@@ -44,8 +44,8 @@ Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Ass
       if (edge < 0) continue;
       const ModelEdge& ghost = model.edges[std::size_t(edge)];
       const bool begins = edge == rod.ghost_begin;
-      const int end = begins ? ghost.to : ghost.from, beyond = begins ? ghost.from : ghost.to;
-      if (end < mesh.rod_nodes()) on[std::size_t(end)] += at.gradient.col(beyond);
+      const int end = begins ? ghost.to : ghost.from, outer = begins ? ghost.from : ghost.to;
+      if (end < mesh.rod_nodes()) on[std::size_t(end)] += at.gradient.col(outer);
     }
   }
   for (const Constraint& constraint : constraints)

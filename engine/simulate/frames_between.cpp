@@ -46,12 +46,12 @@ Eigen::VectorXd FramesBetween::curvature(const Eigen::Matrix3Xd& nodes) const {
 }
 
 const FramesBetween::Knot* FramesBetween::knot_at(std::size_t step, int quarter, double t,
-                                                  const LoadStep& beside, const LoadStep* across) {
+                                                  const LoadStep& nearest, const LoadStep* across) {
   const auto [at, is_new] = known_.try_emplace({step, quarter});
   if (is_new) {
     Simulation& simulation = path_.simulation;
     const NestedShell& shell = simulation.shell();
-    const Report report = simulation.sample(t, beside, false, watch_, across);
+    const Report report = simulation.sample(t, nearest, false, watch_, across);
     if (report.end == Outcome::reached && report.certificate.stable()) {
       Knot knot{shell.point(), frame_of(simulation)};
       measure_(knot.frame, t, false);

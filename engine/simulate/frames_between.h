@@ -55,7 +55,7 @@ class FramesBetween {
   static std::optional<Window> window_at(const PathSegment& segment, double t);
   Knots knots_in(const PathSegment& segment, const Window& window);
   Knots knots_between(const PathSegment& segment, const Window& window);
-  const Knot* knot_at(std::size_t step, int quarter, double t, const LoadStep& beside,
+  const Knot* knot_at(std::size_t step, int quarter, double t, const LoadStep& nearest,
                       const LoadStep* across);
   Eigen::VectorXd curvature(const Eigen::Matrix3Xd& nodes) const;
   std::optional<Eigen::Matrix3Xd> nodes_at(double t, const Knots& knots, double& doubt_mm) const;

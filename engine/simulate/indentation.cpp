@@ -196,7 +196,7 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
                    indentation.joint[0], indentation.joint[1]);
   }
   const Eigen::VectorXd height = joints.row(2).transpose();
-  if (indentation.at == preset::IndentationPlace::highest && indentation.latitude_deg == 90)
+  if (indentation.at == preset::IndentationPosition::highest && indentation.latitude_deg == 90)
     return best_joint(footprint, height);
   return best_joint(footprint,
                     joints.colwise().normalized().transpose() * direction_of(indentation));

@@ -81,7 +81,7 @@ void Simulation::Walk::record_step() {
 
 /// Reports the path parameter to the observer.
 void Simulation::Walk::report_position() const {
-  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
+  if (&watch_ != &unwatched) watch_.set_position(now(), shell_.plan().edges_per_segment.back());
 }
 
 /// Records the current state as a load step from which the path continues.
@@ -168,7 +168,7 @@ Outcome Simulation::Walk::accept_step(double next, const NestedState& good) {
 
 /// Whether a path that started past a limit has returned: the limit then applies as usual.
 void Simulation::Walk::note_return() {
-  if (!from_past_limit_ || of_.limit_exceeded()) return;
+  if (!from_past_limit_ || of_.exceeded_limit()) return;
   limits_ = of_.limits();
   from_past_limit_ = false;
 }
@@ -186,12 +186,12 @@ bool Simulation::Walk::too_coarse() {
   return std::abs(now() - *unmeasured_since_) > plan.events_apart;
 }
 
-Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
+Report Simulation::sample(double t, const LoadStep& nearest, bool unstable, const Watch& watch,
                           const LoadStep* across) {
   const CallBegin begin = call_begin();
-  shell_->allow_unstable(unstable || !beside.certificate.stable());
+  shell_->allow_unstable(unstable || !nearest.certificate.stable());
   const NestedReport nested =
-      shell_->sample(t, beside.point, watch, across ? &across->point : nullptr);
+      shell_->sample(t, nearest.point, watch, across ? &across->point : nullptr);
   shell_->allow_unstable(false);
   return report(nested.end, nested.t, begin);
 }

@@ -78,7 +78,7 @@ class Simulation::Walk {
   const Watch& watch_;
   // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
-  bool from_past_limit_ = of_.limit_exceeded().has_value();
+  bool from_past_limit_ = of_.exceeded_limit().has_value();
   StabilityStepControl step_control_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since

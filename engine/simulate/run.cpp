@@ -158,12 +158,12 @@ std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
   if (!path.single_motion || !simulation.constraints().empty()) return "";
-  constexpr double not_told_apart = 0.02;  // in units of d
+  constexpr double indistinguishable = 0.02;  // in units of d
   double least = scene.tolerance * scene.length_scale_mm / 4;
   if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
     least = 2 * error;
   const double off = distance_of_image(simulation, least);
-  if (!(off < not_told_apart * scene.footprint.spacing)) return "";
+  if (!(off < indistinguishable * scene.footprint.spacing)) return "";
   return fmt::format(
       "the state lies {:.2g} mm from its own image under a symmetry of the shell, "
       "more than its error: either several states nearly coincide and it is one of them by chance, "

@@ -169,10 +169,10 @@ class Show {
   Result<void> between(const Done& done, const PathSample& sample) {
     Simulation& simulation = work_.simulation;
     simulation.restore(done.path_end);
-    const CertifiedSample stood = certify_sample(work_, sample, watch_);
+    const CertifiedSample certified = certify_sample(work_, sample, watch_);
     if (watch_.cancelled()) return stopped();
-    if (stood.report.end != Outcome::reached) return {};
-    return sampler_->take_current(sample, sampler_->events(sample, stood.past), stood.past);
+    if (certified.report.end != Outcome::reached) return {};
+    return sampler_->take_current(sample, sampler_->events(sample, certified.past), certified.past);
   }
 
   PathSample sample(double t) {

@@ -35,7 +35,7 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, RunContext context)
 
 record::Contacts Simulation::contacts() const { return search_->in(nodes()); }
 
-std::optional<Event> Simulation::limit_exceeded() const { return exceeded(limits()); }
+std::optional<Event> Simulation::exceeded_limit() const { return exceeded(limits()); }
 
 Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                     const RunContext& context) {

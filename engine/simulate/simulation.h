@@ -287,10 +287,10 @@ class Simulation {
   Effort effort() const { return spent_ + shell_->effort(); }
   /// Adds the cost of a simulation that was used before this one.
   void charge(const Effort& spent) { spent_ += spent; }
-  /// Certifies the state at t next to load step `beside`; the path does not change. With
+  /// Certifies the state at t next to load step `nearest`; the path does not change. With
   /// `unstable`, or from an unstable load step, any equilibrium is accepted and its stability
   /// reported. `across`: the load step on the other side of t on the same branch.
-  Report sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
+  Report sample(double t, const LoadStep& nearest, bool unstable, const Watch& watch,
                 const LoadStep* across = nullptr);
   /// Certifies the equilibrium at t to which the shell relaxes after it lost the branch of
   /// `before`.
@@ -298,7 +298,7 @@ class Simulation {
   /// Whether the axial strain has reached its limit.
   bool locked() const;
   /// The limit of the scene that the current state exceeds, an event with is_limit(); empty: none.
-  std::optional<Event> limit_exceeded() const;
+  std::optional<Event> exceeded_limit() const;
   /// Largest strain of a fibre by bending, dimensionless, on the finest mesh.
   double bending_strain() const;
   /// Interpenetrations in nodes(), the shape that is shown.

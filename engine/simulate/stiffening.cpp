@@ -232,7 +232,7 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
     action *= more;
     const auto there = std::ranges::find_if(field, [&](const NodeAction& one) {
       return one.node == action.node && one.term == action.term && one.stiffness.isZero(0) &&
-             one.beside == action.beside;
+             one.corners == action.corners;
     });
     if (there == field.end())
       field.push_back(action);

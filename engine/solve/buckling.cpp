@@ -74,8 +74,8 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
 State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,
                  const FlatFrame& flat) {
   Eigen::Matrix3Xd nodes = drawn_nodes(mesh, flat);
-  nodes.rightCols(mesh.beside_rods()) =
-      motion.begin.middleCols(mesh.rod_nodes(), mesh.beside_rods());
+  nodes.rightCols(mesh.nodes_off_rods()) =
+      motion.begin.middleCols(mesh.rod_nodes(), mesh.nodes_off_rods());
   return start_state(model, columns_of(mesh, model, nodes));
 }
 

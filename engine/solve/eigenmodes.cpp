@@ -22,11 +22,11 @@ struct Stopped {};
 
 /// The operator M^1/2 K^-1 M^1/2 on vectors orthogonal to those found before, as Spectra expects
 /// it.
-class InverseBeside {
+class DeflatedInverse {
  public:
   using Scalar = double;
-  InverseBeside(const Linearisation& system, const Eigen::Matrix3Xd& root,
-                const Eigen::MatrixXd& found, const Watch& watch)
+  DeflatedInverse(const Linearisation& system, const Eigen::Matrix3Xd& root,
+                  const Eigen::MatrixXd& found, const Watch& watch)
       : system_(system), root_(root), found_(found), watch_(watch) {}
 
   Index rows() const { return root_.size(); }
@@ -58,7 +58,7 @@ class InverseBeside {
 /// sign given by `rule`. Returns whether it found any. If a run converges only some of its pairs,
 /// as near a mode of almost no stiffness, the next run finds the others. Errors: as
 /// softest_modes().
-Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index count, Index ask,
+Result<bool> extend(const DeflatedInverse& inverse, Spectra::SortRule rule, Index count, Index ask,
                     Pairs& found) {
   constexpr int most_restarts = 100;
   constexpr double converged = 1e-8, more = 1 + 1e-9, round_off = 1e-13;
@@ -66,7 +66,7 @@ Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index 
   const Index space = std::min(inverse.rows(), std::max<Index>(2 * ask + 8, 20));
   Pairs next;
   try {
-    Spectra::SymEigsSolver solver(const_cast<InverseBeside&>(inverse), ask, space);
+    Spectra::SymEigsSolver solver(const_cast<DeflatedInverse&>(inverse), ask, space);
     solver.init();
     solver.compute(rule, most_restarts, converged, rule);
     next = {solver.eigenvalues(), solver.eigenvectors()};
@@ -104,7 +104,7 @@ Result<Pairs> largest(const Linearisation& system, const Eigen::Matrix3Xd& root,
   // whether there are equal eigenvalues does not matter if one mode is requested
   const Index runs = count > 1 ? all : count;
   for (Index ask = count, run = 0; run < runs && found.values.size() < all; ask = a_few, ++run) {
-    const InverseBeside inverse(system, root, found.vectors, watch);
+    const DeflatedInverse inverse(system, root, found.vectors, watch);
     TRY(grew, extend(inverse, rule, count,
                      std::min({ask, all - found.values.size(), root.size() - 1}), found));
     if (!*grew) break;

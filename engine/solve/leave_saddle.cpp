@@ -93,9 +93,9 @@ bool comes_upon(const WayDown& other, const Eigen::Matrix3Xd& x, double near_mm,
 /// The equilibrium reached from an unstable state perturbed along `along`, whose largest column is
 /// 1; empty if there is none. `passed` stores the descent, which ends where it meets `other` (null:
 /// nowhere).
-std::optional<State> rest_beside(Linearisation& system, const State& unstable,
-                                 const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
-                                 WayDown* passed, const WayDown* other, const Watch& watch) {
+std::optional<State> equilibrium_near(Linearisation& system, const State& unstable,
+                                      const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
+                                      WayDown* passed, const WayDown* other, const Watch& watch) {
   constexpr double most_mm = 1;
   const double near_mm = 0.02 * departure.step_mm;
   for (double push = departure.amplitude_mm; push <= most_mm && !watch.cancelled(); push *= 4) {
@@ -128,8 +128,9 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
   for (double sign : {1.0, -1.0}) {
     if (departure.side == (sign > 0 ? BranchSide::against : BranchSide::along)) continue;
     const bool second = best.has_value();
-    auto state = rest_beside(system, unstable, sign * unit, departure,
-                             both && !second ? &first : nullptr, second ? &first : nullptr, watch);
+    auto state =
+        equilibrium_near(system, unstable, sign * unit, departure,
+                         both && !second ? &first : nullptr, second ? &first : nullptr, watch);
     if (watch.cancelled())
       return fail(Fault::cancelled, "stopped while searching for an equilibrium");
     if (!state) continue;

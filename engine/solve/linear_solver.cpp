@@ -12,15 +12,16 @@ namespace {
 /// Solver for Hessians with blocks outside the model's pattern, between edges that are close or
 /// nodes of a face, for which it plans a factorisation of the extended pattern. It takes the
 /// Hessian's matrix of rank one into account, too.
-class BeyondSolver final : public LinearSolver {
+class ExtraBlockSolver final : public LinearSolver {
  public:
-  explicit BeyondSolver(const Model& model) : model_(model), apart_(make_block_cholesky(model)) {}
+  explicit ExtraBlockSolver(const Model& model)
+      : model_(model), apart_(make_block_cholesky(model)) {}
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
     if (!apart_) apart_ = make_block_cholesky(model_);
     if (!numbers) numbers = std::make_shared<FactorNumbers>();
     current_ = apart_.get();
-    if (!hessian.beyond.empty()) {
+    if (!hessian.extra.empty()) {
       if (!together_ || !known(hessian)) plan(hessian);
       current_ = together_.get();
     }
@@ -29,7 +30,7 @@ class BeyondSolver final : public LinearSolver {
     current_->most_negative = most_negative + (joined && most_negative < 1000000);
     current_->team = team;
     current_->numbers = numbers;
-    Inertia inertia = current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
+    Inertia inertia = current_->factor(hessian.extra.empty() ? hessian : merged(hessian), shift);
     rank_one_ = hessian.rank_one;
     if (joined && inertia.usable && inertia.negative_pivots <= current_->most_negative)
       join(inertia);
@@ -64,14 +65,13 @@ class BeyondSolver final : public LinearSolver {
     inertia.negative_pivots -= schur_ < 0;
   }
   bool known(const BlockHessian& hessian) const {
-    return std::ranges::all_of(hessian.beyond, [&](const BlockHessian::Beyond& one) {
+    return std::ranges::all_of(hessian.extra, [&](const BlockHessian::Extra& one) {
       return wider_->pattern.find(one.row, one.column) >= 0;
     });
   }
   void plan(const BlockHessian& hessian) {
     wider_ = model_;
-    for (const BlockHessian::Beyond& one : hessian.beyond)
-      wider_->pattern.slot(one.row, one.column);
+    for (const BlockHessian::Extra& one : hessian.extra) wider_->pattern.slot(one.row, one.column);
     together_ = make_block_cholesky(*wider_);
   }
   /// The Hessian with all blocks in the pattern.
@@ -79,7 +79,7 @@ class BeyondSolver final : public LinearSolver {
     merged_.diagonal = hessian.diagonal;
     merged_.pair = hessian.pair;
     merged_.pair.resize(wider_->pattern.pairs().size());
-    for (const BlockHessian::Beyond& one : hessian.beyond)
+    for (const BlockHessian::Extra& one : hessian.extra)
       merged_.add(wider_->pattern.find(one.row, one.column), one.block);
     return merged_;
   }
@@ -96,7 +96,7 @@ class BeyondSolver final : public LinearSolver {
 }  // namespace
 
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
-  return std::make_unique<BeyondSolver>(model);
+  return std::make_unique<ExtraBlockSolver>(model);
 }
 
 Eigen::Matrix3d without_fixed(const Model& model, int row, int column,

@@ -180,7 +180,7 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
   return certify(*path_, watch);
 }
 
-NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const Watch& watch,
+NestedReport NestedShell::sample(double t, const NestedPathPoint& nearest, const Watch& watch,
                                  const NestedPathPoint* across) {
   struct Memory {  // restores the differences of the path in the end
     std::vector<std::unique_ptr<Level>>& levels;
@@ -195,15 +195,15 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   } memory(levels_);
   PathFollower path(system(), motion(), options_);
   path.allow_unstable(options_.allow_unstable);
-  path.resume(beside, across);
+  path.resume(nearest, across);
   const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
-  remember(beside.companions);
+  remember(nearest.companions);
   for (std::size_t k = 0; across && k < across->companions.size(); ++k)
     levels_[k]->differences.push_back(across->companions[k]);
   // with constraints the stiffness at this state is needed, hence a factorisation
-  const bool known = t == beside.t && system().constraints().empty();
-  return certify(path, watch, known ? beside.inertia : Inertia{});
+  const bool known = t == nearest.t && system().constraints().empty();
+  return certify(path, watch, known ? nearest.inertia : Inertia{});
 }
 
 void NestedShell::drive(const PrescribedMove& drive) {

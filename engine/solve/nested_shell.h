@@ -129,9 +129,9 @@ class NestedShell {
   /// Follows the path to t and certifies that state. On failure the current state is the last
   /// certified one.
   NestedReport advance(double t, const Watch& watch);
-  /// Certifies the state at t between known points of the path; the path does not change. `beside`
+  /// Certifies the state at t between known points of the path; the path does not change. `nearest`
   /// is the nearest point, `across` the next one on the other side of t on the same branch.
-  NestedReport sample(double t, const NestedPathPoint& beside, const Watch& watch,
+  NestedReport sample(double t, const NestedPathPoint& nearest, const Watch& watch,
                       const NestedPathPoint* across = nullptr);
 
   /// Starts a prescribed motion from the current state, which is at t = 0. The caller then calls

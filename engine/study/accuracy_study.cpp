@@ -140,15 +140,15 @@ double fastest(const std::vector<AccuracyRow>& rows, double error) {
 }
 
 std::vector<AutoOutcome> auto_outcomes(const std::vector<AccuracyRow>& rows) {
-  std::vector<AutoOutcome> standings;
+  std::vector<AutoOutcome> outcomes;
   for (const AccuracyRow& row : rows)
     if (is_auto(row)) {
-      const double tolerance = auto_tolerances[standings.size()];
+      const double tolerance = auto_tolerances[outcomes.size()];
       // errors within 5 % count as equal
-      standings.push_back({tolerance, row.error, row.cpu_s, fastest(rows, 1.05 * row.error),
-                           fastest(rows, tolerance)});
+      outcomes.push_back({tolerance, row.error, row.cpu_s, fastest(rows, 1.05 * row.error),
+                          fastest(rows, tolerance)});
     }
-  return standings;
+  return outcomes;
 }
 
 /// The longest leg of a circle over d.
@@ -223,7 +223,7 @@ Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const Accurac
   TRY(others, run_series(study, other_series(options), std::max(1, options.threads), options, watch,
                          0.05, options.scaling ? 0.75 : 1));
   result.rows.insert(result.rows.end(), others->begin(), others->end());
-  result.standings = auto_outcomes(result.rows);
+  result.outcomes = auto_outcomes(result.rows);
   if (options.scaling) result.scaling = scaling_of(preset, options, watch);
   if (watch.cancelled()) return stopped();
   return result;

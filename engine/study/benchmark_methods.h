@@ -98,7 +98,7 @@ Method relaxed_method(Relaxation kind, int edges);
 
 /// Explicit steps from the problem's end, perturbed by 0.01 mm: right if 20 000 damped steps do not
 /// diverge. `over_l_c` is the time step over l_min/c.
-MethodResult hold(const Problem& problem, double over_l_c, const Watch& watch);
+MethodResult check_explicit_step(const Problem& problem, double over_l_c, const Watch& watch);
 
 /// A problem from the flat footprint to the start of `problem`; its initial guess is a dome of
 /// `height` mm.

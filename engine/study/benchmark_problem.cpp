@@ -25,8 +25,8 @@ Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model
                      const PinnedMotion& motion) {
   TRY(net, positions_on_net(scene, mesh));
   net->conservativeResize(3, mesh.nodes());
-  net->rightCols(mesh.beside_rods()) =
-      motion.at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
+  net->rightCols(mesh.nodes_off_rods()) =
+      motion.at(1).middleCols(mesh.rod_nodes(), mesh.nodes_off_rods());
   return start_state(model, columns_of(mesh, model, *net));
 }
 
@@ -51,7 +51,7 @@ BenchmarkProblem::BenchmarkProblem(std::shared_ptr<const Scene> scene,
     : scene_(std::move(scene)),
       pushed_(pushed),
       task_(pushed.requested() ? Task::push
-            : scene_->from_net ? Task::beside_net
+            : scene_->from_net ? Task::near_net
                                : Task::actuation) {}
 
 Result<std::unique_ptr<BenchmarkProblem>> BenchmarkProblem::create(const preset::Preset& preset,
@@ -159,7 +159,7 @@ Problem BenchmarkProblem::on_model(const Problem& problem, const ModelVariant& o
 }
 
 NestedReport BenchmarkProblem::begin(NestedShell& shell, const Watch& watch) {
-  if (task_ == Task::beside_net) return {Outcome::reached, 1};
+  if (task_ == Task::near_net) return {Outcome::reached, 1};
   const auto known = problem(shell.plan().edges_per_segment.back(), watch);
   if (!known) return {Outcome::lost, t_};
   const Model& model = shell.model();
@@ -179,7 +179,7 @@ NestedReport BenchmarkProblem::go(NestedShell& shell, const Watch& watch, int st
       report = shell.advance(k == stops ? 1 : parameter_at(from + (1 - from) * k / stops), watch);
     return report;
   }
-  if (task_ == Task::beside_net) {
+  if (task_ == Task::near_net) {
     auto net = on_net(*scene_, shell.finest(), shell.model(), shell.motion());
     if (net) net = find_equilibrium(shell.system(), *net, 0.5 * scene_->footprint.spacing, watch);
     if (!net) return {watch.cancelled() ? Outcome::cancelled : Outcome::lost, 1};
@@ -192,9 +192,9 @@ NestedReport BenchmarkProblem::go(NestedShell& shell, const Watch& watch, int st
   return report;
 }
 
-Result<State> BenchmarkProblem::rest_beside(const Problem& problem,
-                                            const Eigen::Matrix3Xd& requested, double t,
-                                            const Watch& watch) const {
+Result<State> BenchmarkProblem::equilibrium_near(const Problem& problem,
+                                                 const Eigen::Matrix3Xd& requested, double t,
+                                                 const Watch& watch) const {
   Eigen::Matrix3Xd x;
   MeshTransfer(finest_, problem.mesh).nodes(requested, x);
   Linearisation system(problem.model);
@@ -214,11 +214,11 @@ Result<const Problem*> BenchmarkProblem::problem(int edges, const Watch& watch) 
   if (const auto known = problems_.find(edges); known != problems_.end()) return &known->second;
   const NestedShell one = shell({{edges}, false}, exact);
   Problem problem{edges, one.mesh(0), one.model(0), one.motion(0), t_, {}, {}};
-  if (task_ == Task::beside_net) {
+  if (task_ == Task::near_net) {
     TRY(net, on_net(*scene_, problem.mesh, problem.model, problem.motion));
     problem.start = std::move(*net);
   } else {
-    TRY(start, rest_beside(problem, start_, task_ == Task::push ? 1 : t_, watch));
+    TRY(start, equilibrium_near(problem, start_, task_ == Task::push ? 1 : t_, watch));
     problem.start = std::move(*start);
   }
   if (task_ == Task::push) {
@@ -229,7 +229,7 @@ Result<const Problem*> BenchmarkProblem::problem(int edges, const Watch& watch) 
     problem.motion.change.col(joint_) = displacement_;
     problem.t = 0;
   }
-  TRY(end, rest_beside(problem, end_, 1, watch));
+  TRY(end, equilibrium_near(problem, end_, 1, watch));
   problem.end = std::move(*end);
   return &problems_.emplace(edges, std::move(problem)).first->second;
 }

@@ -16,7 +16,7 @@
 namespace gridshell::study {
 
 /// The task: move the boundary, find the equilibrium next to the net, or push a joint.
-enum class Task { actuation, beside_net, push };
+enum class Task { actuation, near_net, push };
 
 /// Rod model and joints of a method.
 struct ModelVariant {
@@ -32,7 +32,7 @@ struct Problem {
   Model model;
   PinnedMotion motion;
   double t = 0;  ///< path parameter at the start
-  State start;   ///< certified on this mesh (beside_net: the net itself)
+  State start;   ///< certified on this mesh (near_net: the net itself)
   State end;     ///< the equilibrium of *this* mesh at t = 1 on the branch of the reference
 
   /// Path parameter of load step `k` of `steps`, between which the boundary or the joint moves by
@@ -71,7 +71,7 @@ class BenchmarkProblem {
 
   /// A nested shell as an experiment makes it for a tolerance (over the length scale).
   NestedShell shell(const LevelPlan& plan, double tolerance, const ModelVariant& on = {}) const;
-  /// Sets the shell to the start of the task. Does nothing for beside_net, whose equilibrium is the
+  /// Sets the shell to the start of the task. Does nothing for near_net, whose equilibrium is the
   /// method's own work.
   NestedReport begin(NestedShell& shell, const Watch& watch);
   /// Moves the shell from the start to the end, in load steps as the experiments choose them, with
@@ -81,8 +81,8 @@ class BenchmarkProblem {
  private:
   BenchmarkProblem(std::shared_ptr<const Scene> scene, const preset::Indentation& pushed);
   Result<void> follow(int finest, Watch& watch);
-  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& requested, double t,
-                            const Watch& watch) const;
+  Result<State> equilibrium_near(const Problem& problem, const Eigen::Matrix3Xd& requested,
+                                 double t, const Watch& watch) const;
   ShellRods rods_on(const ModelVariant& on) const;
   void push(NestedShell& shell) const;
 

@@ -283,8 +283,8 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   Result<BranchStart> course = stopped();
   if (preset.indentation.requested())
     course = simulate::prepare_push(scene, preset.indentation, plan, watch)
-                 .map([](simulate::PushedShell held) {
-                   return BranchStart{std::move(held.simulation), 0, 1, true};
+                 .map([](simulate::PushedShell pushed) {
+                   return BranchStart{std::move(pushed.simulation), 0, 1, true};
                  });
   else
     course = begin_actuation(scene, plan, watch);

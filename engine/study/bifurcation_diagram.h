@@ -27,7 +27,7 @@ struct TracedPoint {
   PathPoint at;
   int negative_pivots = 0;
   record::BranchEvent event = record::BranchEvent::none;
-  int beyond = 0;  ///< negative pivots just after a bifurcation
+  int pivots_after = 0;  ///< negative pivots just after a bifurcation
 };
 
 /// Whether the branch has met another one at this bifurcation, and ends.

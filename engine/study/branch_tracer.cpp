@@ -112,7 +112,7 @@ class Tracer {
       const double t = low.at().point.t;
       if (t > options_.to || t < options_.from) return true;
       TracedPoint found = traced(low.at(), BranchEvent::bifurcation);
-      found.beyond = high.at().inertia.negative_pivots;
+      found.pivots_after = high.at().inertia.negative_pivots;
       if (met_(found)) found.event = BranchEvent::joins;
       const bool joins = found.event == BranchEvent::joins;
       points_.push_back(std::move(found));
@@ -127,15 +127,15 @@ class Tracer {
   /// method finds it. Returns false: the branch ends.
   bool arrive(bool at_end) {
     const double t = at_end ? options_.to : options_.from;
-    const PathPoint& beyond = path_.at().point;
+    const PathPoint& reached = path_.at().point;
     const PathPoint& before = points_.back().at;
-    const double part = (t - before.t) / (beyond.t - before.t);
+    const double part = (t - before.t) / (reached.t - before.t);
     TracedPoint last;
     last.at.t = t;
     last.at.state = before.state;
-    move_to(system_.model(), before.state.x + part * (beyond.state.x - before.state.x),
+    move_to(system_.model(), before.state.x + part * (reached.state.x - before.state.x),
             last.at.state);
-    last.at.state.force += part * (beyond.state.force - before.state.force);
+    last.at.state.force += part * (reached.state.force - before.state.force);
     motion_.impose(system_, t, last.at.state);
     NewtonOptions newton_options;
     newton_options.tolerance_mm = options_.arc.tolerance_mm;
@@ -183,7 +183,7 @@ Eigen::MatrixXd generic_vectors(Eigen::Index rows, Eigen::Index count) {
 std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const PinnedMotion& motion,
                                              const TracedPoint& crossing, const Watch& watch) {
   constexpr int rounds = 40, more = 2;  // additional vectors make the requested ones converge
-  const auto [low, high] = std::minmax(crossing.negative_pivots, crossing.beyond);
+  const auto [low, high] = std::minmax(crossing.negative_pivots, crossing.pivots_after);
   State state = crossing.at.state;
   motion.impose(system, crossing.at.t, state);
   system.at(state, false);

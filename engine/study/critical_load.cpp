@@ -42,9 +42,9 @@ BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
   };
   slope(up.diagonal, down.diagonal);
   slope(up.pair, down.pair);
-  for (BlockHessian::Beyond& one : down.beyond) one.block.matrix() *= -1;
-  up.beyond.insert(up.beyond.end(), down.beyond.begin(), down.beyond.end());
-  for (BlockHessian::Beyond& one : up.beyond) one.block.matrix() /= 2 * h;
+  for (BlockHessian::Extra& one : down.extra) one.block.matrix() *= -1;
+  up.extra.insert(up.extra.end(), down.extra.begin(), down.extra.end());
+  for (BlockHessian::Extra& one : up.extra) one.block.matrix() /= 2 * h;
   return up;
 }
 
@@ -89,7 +89,7 @@ void take_critical(CriticalLoad& found, Linearisation& system, const PinnedMotio
     } else {
       // without a located bifurcation, stability is lost within the step before point k
       TracedPoint crossing = branches ? points[k] : points[k - 1];
-      if (!branches) crossing.beyond = points[k].negative_pivots;
+      if (!branches) crossing.pivots_after = points[k].negative_pivots;
       found.factor = branches ? crossing.at.t : 0.5 * (crossing.at.t + points[k].at.t);
       const auto modes = crossing_modes(system, motion, crossing, watch);
       if (!modes.empty()) found.mode = modes.front();

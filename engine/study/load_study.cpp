@@ -51,9 +51,9 @@ class Loading {
 
   /// The first factor at which a fibre reaches its rod's strength; NaN: not on this path.
   double strength_factor(int level, const CriticalLoad& found, const std::vector<double>& used) {
-    const auto beyond = std::ranges::find_if(used, [](double fraction) { return fraction >= 1; });
-    if (beyond == used.end()) return record::unknown;
-    const auto k = std::size_t(beyond - used.begin());
+    const auto reached = std::ranges::find_if(used, [](double fraction) { return fraction >= 1; });
+    if (reached == used.end()) return record::unknown;
+    const auto k = std::size_t(reached - used.begin());
     if (k == 0) return found.points[0].at.t;
     const TracedPoint &from = found.points[k - 1], &to = found.points[k];
     double low = from.at.t, high = to.at.t, below = used[k - 1] - 1, above = used[k] - 1;

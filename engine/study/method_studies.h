@@ -36,7 +36,7 @@ struct AutoOutcome {
 struct AccuracyStudy {
   std::vector<record::AccuracyRow> rows;
   std::vector<record::ScalingRow> scaling;
-  std::vector<AutoOutcome> standings;
+  std::vector<AutoOutcome> outcomes;
   double reference_error = 0;  ///< estimated, over the length scale
 };
 

@@ -48,12 +48,12 @@ Pose fit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
 }
 
 /// The positions of a shape, found by a grid of cells.
-class Places {
+class PositionGrid {
  public:
-  Places(const Eigen::Matrix3Xd& places, double within)
-      : places_(places), within_(within), grid_(2 * within) {
-    for (int k = 0; k < int(places.cols()); ++k) {
-      const Eigen::Vector3d p = places.col(k), around = Eigen::Vector3d::Constant(within);
+  PositionGrid(const Eigen::Matrix3Xd& positions, double within)
+      : positions_(positions), within_(within), grid_(2 * within) {
+    for (int k = 0; k < int(positions.cols()); ++k) {
+      const Eigen::Vector3d p = positions.col(k), around = Eigen::Vector3d::Constant(within);
       grid_.add(k, {p - around, p + around}, std::numeric_limits<std::size_t>::max());
     }
   }
@@ -63,7 +63,7 @@ class Places {
     const std::vector<int>* few = grid_.at(p);
     if (!few) return;
     for (const int k : *few)
-      if (const double off = (places_.col(k) - p).norm(); off <= within_) visit(k, off);
+      if (const double off = (positions_.col(k) - p).norm(); off <= within_) visit(k, off);
   }
   bool any(const Eigen::Vector3d& p) const {
     bool found = false;
@@ -72,13 +72,13 @@ class Places {
   }
 
  private:
-  const Eigen::Matrix3Xd& places_;
+  const Eigen::Matrix3Xd& positions_;
   double within_;
   BoxGrid grid_;
 };
 
 /// Two positions and their distance.
-struct PlacePair {
+struct PositionPair {
   double apart = 0;
   int i = 0, j = 0;
 };
@@ -91,25 +91,29 @@ struct Guess {
 /// Draws triples of points and collects the poses in which most points agree with positions.
 class Search {
  public:
-  Search(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& places, double bar)
-      : points_(points), places_(places), bar_(bar), near_(places, bar), size_(extent_of(places)) {
-    tried_.resize(std::size_t(places.cols()));
+  Search(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& positions, double bar)
+      : points_(points),
+        positions_(positions),
+        bar_(bar),
+        near_(positions, bar),
+        size_(extent_of(positions)) {
+    tried_.resize(std::size_t(positions.cols()));
     std::iota(tried_.begin(), tried_.end(), 0);
-    if (places.cols() > most_tried) {
+    if (positions.cols() > most_tried) {
       std::shuffle(tried_.begin(), tried_.end(), draw_);
       tried_.resize(most_tried);
     }
     for (const int i : tried_)
       for (const int j : tried_)
-        if (j < i) pairs_.push_back({distance(places, i, j), i, j});
-    std::ranges::sort(pairs_, {}, &PlacePair::apart);
+        if (j < i) pairs_.push_back({distance(positions, i, j), i, j});
+    std::ranges::sort(pairs_, {}, &PositionPair::apart);
     order_.resize(std::size_t(points.cols()));
     std::iota(order_.begin(), order_.end(), 0);
     std::shuffle(order_.begin(), order_.end(), draw_);
   }
 
   std::vector<Guess> guesses() {
-    const auto all = int(std::min(points_.cols(), places_.cols()));
+    const auto all = int(std::min(points_.cols(), positions_.cols()));
     for (int k = 0; k < most_triples && best_ < enough * all; ++k) {
       // every other triple is tried with a tight tolerance, which is faster
       within_ = k % 2 == 0 ? bar_ / 3 : bar_;
@@ -141,14 +145,14 @@ class Search {
   void try_all(const Triple& t) {
     const double ab = distance(points_, t[0], t[1]), ac = distance(points_, t[0], t[2]),
                  bc = distance(points_, t[1], t[2]);
-    const auto first = std::ranges::lower_bound(pairs_, ab - within_, {}, &PlacePair::apart),
-               last = std::ranges::upper_bound(pairs_, ab + within_, {}, &PlacePair::apart);
+    const auto first = std::ranges::lower_bound(pairs_, ab - within_, {}, &PositionPair::apart),
+               last = std::ranges::upper_bound(pairs_, ab + within_, {}, &PositionPair::apart);
     const auto step = std::max<std::ptrdiff_t>(1, (last - first) / std::ptrdiff_t(most_pairs));
     for (auto at = first; last - at > 0; at += std::min(step, last - at))
       for (const auto& [i, j] : {std::pair(at->i, at->j), std::pair(at->j, at->i)})
         for (const int k : tried_)
-          if (std::abs(distance(places_, i, k) - ac) < within_ &&
-              std::abs(distance(places_, j, k) - bc) < within_)
+          if (std::abs(distance(positions_, i, k) - ac) < within_ &&
+              std::abs(distance(positions_, j, k) - bc) < within_)
             try_pose(t, {i, j, k});
   }
 
@@ -156,7 +160,7 @@ class Search {
     Eigen::Matrix3Xd from(3, 3), to(3, 3);
     for (int k = 0; k < 3; ++k) {
       from.col(k) = points_.col(t[std::size_t(k)]);
-      to.col(k) = places_.col(on[std::size_t(k)]);
+      to.col(k) = positions_.col(on[std::size_t(k)]);
     }
     const Pose pose = fit(from, to);
     const auto agrees = [&](int k) { return near_.any(pose.turn * points_.col(k) + pose.shift); };
@@ -183,12 +187,12 @@ class Search {
     return kept;
   }
 
-  const Eigen::Matrix3Xd &points_, &places_;
+  const Eigen::Matrix3Xd &points_, &positions_;
   double bar_, within_ = 0;
-  Places near_;
+  PositionGrid near_;
   double size_;
   std::vector<int> tried_;  // positions to which triples are mapped
-  std::vector<PlacePair> pairs_;
+  std::vector<PositionPair> pairs_;
   std::vector<int> order_;
   std::mt19937_64 draw_{1};
   std::vector<Guess> guesses_;
@@ -202,15 +206,16 @@ double median(std::vector<double> values) {
 }
 
 /// Assigns points to positions, the nearest pairs first, none further than `most`.
-void assign(const Eigen::Matrix3Xd& moved, const Places& near, double most, Registration& found) {
+void assign(const Eigen::Matrix3Xd& moved, const PositionGrid& near, double most,
+            Registration& found) {
   struct Near {
     double off;
-    int place, point;
+    int position, point;
   };
   std::vector<Near> all;
   for (int point = 0; point < int(moved.cols()); ++point)
-    near.near(moved.col(point), [&](int place, double off) {
-      if (off <= most) all.push_back({off, place, point});
+    near.near(moved.col(point), [&](int position, double off) {
+      if (off <= most) all.push_back({off, position, point});
     });
   std::ranges::stable_sort(all, {}, &Near::off);
   std::vector<char> taken(std::size_t(moved.cols()), 0);
@@ -218,41 +223,41 @@ void assign(const Eigen::Matrix3Xd& moved, const Places& near, double most, Regi
   found.distance.setConstant(std::nan(""));
   found.found = 0;
   for (const Near& one : all) {
-    if (taken[std::size_t(one.point)] || found.point_of[std::size_t(one.place)] >= 0) continue;
+    if (taken[std::size_t(one.point)] || found.point_of[std::size_t(one.position)] >= 0) continue;
     taken[std::size_t(one.point)] = 1;
-    found.point_of[std::size_t(one.place)] = one.point;
-    found.distance[one.place] = one.off;
+    found.point_of[std::size_t(one.position)] = one.point;
+    found.distance[one.position] = one.off;
     ++found.found;
   }
 }
 
 Pose fit_found(const Registration& found, const Eigen::Matrix3Xd& points,
-               const Eigen::Matrix3Xd& places) {
+               const Eigen::Matrix3Xd& positions) {
   Eigen::Matrix3Xd from(3, found.found), to(3, found.found);
   Eigen::Index k = 0;
-  for (Eigen::Index place = 0; place < places.cols(); ++place) {
-    const int point = found.point_of[std::size_t(place)];
+  for (Eigen::Index position = 0; position < positions.cols(); ++position) {
+    const int point = found.point_of[std::size_t(position)];
     if (point < 0) continue;
     from.col(k) = points.col(point);
-    to.col(k++) = places.col(place);
+    to.col(k++) = positions.col(position);
   }
   return fit(from, to);
 }
 
 std::optional<Registration> refined(const Pose& guess, const Eigen::Matrix3Xd& points,
-                                    const Eigen::Matrix3Xd& places, const Places& near,
+                                    const Eigen::Matrix3Xd& positions, const PositionGrid& near,
                                     const RegistrationOptions& options) {
   Registration found;
   found.pose = guess;
-  found.point_of.assign(std::size_t(places.cols()), -1);
-  found.distance.resize(places.cols());
+  found.point_of.assign(std::size_t(positions.cols()), -1);
+  found.distance.resize(positions.cols());
   double gate = options.reach;
   for (int turn = 0; turn < most_turns; ++turn) {
     const auto before = found.point_of;
     assign(found.pose.of(points), near, gate, found);
     if (found.found < least_points) return std::nullopt;
     if (turn > 0 && before == found.point_of) break;
-    found.pose = fit_found(found, points, places);
+    found.pose = fit_found(found, points, positions);
     std::vector<double> off;
     for (const double one : found.distance)
       if (!std::isnan(one)) off.push_back(one);
@@ -271,14 +276,15 @@ std::optional<Registration> refined(const Pose& guess, const Eigen::Matrix3Xd& p
 }  // namespace
 
 std::optional<Registration> register_points(const Eigen::Matrix3Xd& points,
-                                            const Eigen::Matrix3Xd& places,
+                                            const Eigen::Matrix3Xd& positions,
                                             const RegistrationOptions& options) {
-  if (points.cols() < least_points || places.cols() < least_points) return std::nullopt;
-  if (!points.allFinite() || !places.allFinite() || !(extent_of(places) > 0)) return std::nullopt;
-  const Places near(places, options.reach);
+  if (points.cols() < least_points || positions.cols() < least_points) return std::nullopt;
+  if (!points.allFinite() || !positions.allFinite() || !(extent_of(positions) > 0))
+    return std::nullopt;
+  const PositionGrid near(positions, options.reach);
   std::optional<Registration> best;
-  for (const Guess& guess : Search(points, places, options.bar).guesses()) {
-    auto found = refined(guess.pose, points, places, near, options);
+  for (const Guess& guess : Search(points, positions, options.bar).guesses()) {
+    auto found = refined(guess.pose, points, positions, near, options);
     if (found && (!best || found->cost < best->cost)) best = std::move(found);
   }
   return best;

@@ -116,7 +116,7 @@ struct RelaxationRun {
   MovingState moving;
   BaselineOptions how = {.step = options.step};
 
-  void place(double t) {
+  void move_boundary(double t) {
     const Eigen::Matrix3Xd there = problem.motion.at(t);
     for (int node = 0; node < problem.model.nodes; ++node)
       if (problem.model.pinned(node)) moving.state.x.col(node) = there.col(node);
@@ -127,7 +127,7 @@ struct RelaxationRun {
     how.most_steps = 1 << 30;  // the time limit decides
     RunOutcome claim = RunOutcome::right;
     for (int k = 1; k <= count && claim == RunOutcome::right; ++k) {
-      place(problem.load_parameter(k, count));
+      move_boundary(problem.load_parameter(k, count));
       how.tolerance_N = k == count ? options.tolerance_N : loose_N;
       claim = claim_of(options.kind == Relaxation::kinetic
                            ? dynamic_relaxation(problem.model, moving.state, how, watch)
@@ -147,7 +147,7 @@ struct RelaxationRun {
     how.tolerance_N = options.tolerance_N;
     how.most_steps = chunk;
     for (int k = 1; k <= count; ++k) {
-      place(problem.load_parameter(k, count));
+      move_boundary(problem.load_parameter(k, count));
       const BaselineReport report = explicit_to_rest(problem.model, mass, moving, how, watch);
       if (report.end == Outcome::not_finite || report.end == Outcome::cancelled)
         return claim_of(report);
@@ -255,7 +255,7 @@ MethodResult relax(const Problem& problem, const RelaxationOptions& options, con
   return result;
 }
 
-MethodResult hold(const Problem& problem, double over_l_c, const Watch& watch) {
+MethodResult check_explicit_step(const Problem& problem, double over_l_c, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);
   const Eigen::Matrix3Xd mass = mass_of_wire(problem.model);
   double shortest = INFINITY, along = 0;

@@ -19,7 +19,8 @@ constexpr double cells_a_diameter = 3, most_cells = 1e6;  // along each axis
 constexpr double speck_fraction = 0.25;
 constexpr int disc_steps = 30;
 constexpr double pull = 1e-3;  // weight of the mean, for discs whose rim no point crosses
-constexpr double wide_rim = 1.25, most_beyond = 0.05;  // radii; fraction of the points outside them
+constexpr double wide_rim = 1.25,
+                 most_outside = 0.05;  // radii; fraction of the points outside them
 
 using Cell = std::array<std::int32_t, 3>;
 
@@ -56,9 +57,9 @@ std::vector<std::vector<int>> sets_of(const Cells& cells) {
   for (std::size_t k = 0; k < cells.all.size(); ++k)
     for (int n = 0; n < 27; ++n) {
       const Cell& cell = cells.all[k];
-      const Cell beside{cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1};
-      const auto found = std::ranges::lower_bound(cells.all, beside);
-      if (found != cells.all.end() && *found == beside)
+      const Cell neighbour{cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1};
+      const auto found = std::ranges::lower_bound(cells.all, neighbour);
+      if (found != cells.all.end() && *found == neighbour)
         sets.join(int(k), int(found - cells.all.begin()));
     }
   std::vector<int> number(cells.all.size(), -1);
@@ -81,11 +82,11 @@ Eigen::Vector2d disc_around(const Eigen::Matrix2Xd& points, double radius) {
     Eigen::Vector2d slope = pull * double(points.cols()) * (mean - middle);
     for (const auto& p : points.colwise()) {
       const Eigen::Vector2d out = p - middle;
-      const double beyond = out.norm() - radius;
-      if (beyond <= 0) continue;
+      const double excess = out.norm() - radius;
+      if (excess <= 0) continue;
       const Eigen::Vector2d outward = out.normalized();
       normal += outward * outward.transpose();
-      slope += beyond * outward;
+      slope += excess * outward;
     }
     const Eigen::Vector2d move = solution(normal, slope);
     middle += move;
@@ -116,8 +117,8 @@ std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double 
   const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
   const Eigen::Vector3d middle = plane * disc_around(plane.transpose() * about, radius);
   const auto off = (about.colwise() - middle).colwise().norm().array().eval();
-  const auto beyond = double((off > wide_rim * radius).count());
-  if (beyond > most_beyond * double(points.cols())) return std::nullopt;
+  const auto outside = double((off > wide_rim * radius).count());
+  if (outside > most_outside * double(points.cols())) return std::nullopt;
   return mean + middle;
 }
 
@@ -138,8 +139,8 @@ std::size_t usual_size(const std::vector<std::vector<int>>& sets) {
   return 0;
 }
 
-constexpr double same_place = 1e-3;  // times d: tolerance of a mirror image
-constexpr double reach = 0.4;        // times d: largest distance of a measured joint
+constexpr double same_position = 1e-3;  // times d: tolerance of a mirror image
+constexpr double reach = 0.4;           // times d: largest distance of a measured joint
 constexpr double least_found_within = 0.9, least_within = 0.6;
 
 /// Tangent of a rod at its k-th node, a unit vector: inside that of a quadratic through three
@@ -179,7 +180,7 @@ std::optional<Eigen::Matrix3d> mirror_of(const record::Layout& layout, const rec
     flat.col(k) << layout.joints[std::size_t(k)].u_mm, layout.joints[std::size_t(k)].v_mm, 0;
   for (Eigen::Index k = 0; k < ends.cols(); ++k)
     ends.col(k) = frame.nodes.col(layout.edge_points[std::size_t(k)]);
-  const double within = same_place * layout.spacing_mm;
+  const double within = same_position * layout.spacing_mm;
   for (const Eigen::Vector2d& across : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1),
                                         Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1)}) {
     const Eigen::Vector2d normal = across.normalized();
@@ -219,9 +220,9 @@ RegisteredScan laid(const Eigen::Matrix3Xd& tops, const ScanTarget& form,
   Eigen::Index next = 0;
   for (Eigen::Index k = 0; k < tops.cols(); ++k)
     if (!used[std::size_t(k)]) scan.outliers.col(next++) = moved.col(k);
-  const Eigen::Matrix3Xd places = form.joints + cylinder.height_mm * form.normals;
+  const Eigen::Matrix3Xd positions = form.joints + cylinder.height_mm * form.normals;
   for (const auto& top : scan.outliers.colwise())
-    scan.beside += (places.colwise() - top).colwise().norm().minCoeff() < form.spacing_mm;
+    scan.near_outliers += (positions.colwise() - top).colwise().norm().minCoeff() < form.spacing_mm;
   return scan;
 }
 
@@ -301,13 +302,13 @@ ScanTarget form_of(const record::Layout& layout, const record::Frame& frame) {
 
 std::optional<RegisteredScan> register_points(const Clusters& clusters, const ScanTarget& form,
                                               const JointCylinder& cylinder) {
-  const Eigen::Matrix3Xd places = form.joints + cylinder.height_mm * form.normals;
+  const Eigen::Matrix3Xd positions = form.joints + cylinder.height_mm * form.normals;
   const double bar = cylinder.diameter_mm;
   const RegistrationOptions options{bar, std::max(bar, reach * form.spacing_mm), bar / 2};
-  auto best = register_points(clusters.tops, places, options);
+  auto best = register_points(clusters.tops, positions, options);
   bool mirrored = false;
   if (form.mirror) {
-    auto other = register_points(clusters.tops, *form.mirror * places, options);
+    auto other = register_points(clusters.tops, *form.mirror * positions, options);
     // of two equal fits that without reflection is chosen
     if (other && (!best || other->cost < (1 - 1e-6) * best->cost)) {
       other->pose.turn = *form.mirror * other->pose.turn;
@@ -322,7 +323,7 @@ std::optional<RegisteredScan> register_points(const Clusters& clusters, const Sc
   return scan;
 }
 
-double beyond_height(const RegisteredScan& scan, const ScanTarget& form) {
+double excess_height(const RegisteredScan& scan, const ScanTarget& form) {
   constexpr int unknowns = 7;
   if (scan.found <= unknowns) return 0;
   Eigen::MatrixXd moves(3 * scan.found, unknowns);
@@ -349,7 +350,8 @@ double match_tolerance_mm(const Clusters& clusters, const JointCylinder& cylinde
 }
 
 bool scan_matches(const RegisteredScan& scan, double tolerance_mm) {
-  const auto could = double(std::min(scan.joints.cols(), Eigen::Index(scan.found + scan.beside)));
+  const auto could =
+      double(std::min(scan.joints.cols(), Eigen::Index(scan.found + scan.near_outliers)));
   return scan.within_bar >= least_found_within * scan.found &&
          scan.within_bar >= least_within * could && scan.rms_mm <= tolerance_mm;
 }

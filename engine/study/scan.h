@@ -61,14 +61,14 @@ struct RegistrationOptions {
   double nearest = 1.5;  ///< a point nearer than that is assigned even if all others fit better
 };
 
-/// The pose of least cost, among those tried, that maps `points` (3 x n) to the positions `places`
-/// (3 x m). A pose that is tried maps three points, drawn at random (always the same), to three
-/// positions with the same distances [Fischler and Bolles 1981]. Those with which most points agree
-/// are refined by alternating assignment (nearest pairs first, none further than five times the
-/// median distance) and fit [Besl and McKay 1992; Umeyama 1991]. Empty: there are fewer than four
-/// points or positions, or no pose maps four points to positions.
+/// The pose of least cost, among those tried, that maps `points` (3 x n) to the positions
+/// `positions` (3 x m). A pose that is tried maps three points, drawn at random (always the same),
+/// to three positions with the same distances [Fischler and Bolles 1981]. Those with which most
+/// points agree are refined by alternating assignment (nearest pairs first, none further than five
+/// times the median distance) and fit [Besl and McKay 1992; Umeyama 1991]. Empty: there are fewer
+/// than four points or positions, or no pose maps four points to positions.
 std::optional<Registration> register_points(const Eigen::Matrix3Xd& points,
-                                            const Eigen::Matrix3Xd& places,
+                                            const Eigen::Matrix3Xd& positions,
                                             const RegistrationOptions& options);
 
 // A 3D scan against the joints of a simulated shell [Baek 2018, Figs. 2A, 3C and 5E].
@@ -100,7 +100,7 @@ struct RegisteredScan {
   bool mirrored = false;        ///< whether the scan shows the mirror image of the state
   /// number of joints with a top; number of them within two radii of the simulated joint
   int found = 0, within_bar = 0;
-  int beside = 0;  ///< number of outliers nearer than the spacing to a simulated top
+  int near_outliers = 0;  ///< number of outliers nearer than the spacing to a simulated top
   double rms_mm = 0, max_mm = 0, mean_mm = 0;  ///< of the distances
   double cost = 0;  ///< Registration::cost; the state that a scan shows is the one of least cost
 
@@ -118,7 +118,7 @@ std::optional<RegisteredScan> register_points(const Clusters& clusters, const Sc
 /// A least-squares fit of r = b n + w x p + s over the joints found, where r leads from the
 /// simulated joint p to the measured one, and s and w are a small displacement and rotation of the
 /// scan. 0 if fewer than eight joints were found.
-double beyond_height(const RegisteredScan& scan, const ScanTarget& form);
+double excess_height(const RegisteredScan& scan, const ScanTarget& form);
 
 /// The largest rms distance (mm) of measured from simulated joints at which a scan shows a state:
 /// five times the noise of the scan, but at least a tenth of the joints' diameter and at most their

@@ -115,8 +115,9 @@ void add_load_steps(const char* map_name, const char* x_name, double x, const Ax
 Cells explicit_map(const SharedProblem& study, const Axis& steps, const Axis& edges) {
   Map map("explicit step", "step over l/c", steps, "edges_per_segment", edges);
   map.add(word_of(Relaxation::explicit_damped), [=](double step, double k, const Watch& watch) {
-    return on_mesh(study, k, claimed_error,
-                   [&](const Problem& problem) { return hold(problem, step, watch); });
+    return on_mesh(study, k, claimed_error, [&](const Problem& problem) {
+      return check_explicit_step(problem, step, watch);
+    });
   });
   return map.cells();
 }

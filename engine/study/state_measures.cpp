@@ -37,7 +37,7 @@ record::StateClass class_of(const std::string& group, bool first_mode) {
 
 /// Inflections of every rod, "0 0 2 | 0 1 0", u rods before the bar; without a bar for a network
 /// that is not a grid.
-std::string modes_told(const std::vector<int>& modes, const Footprint& footprint) {
+std::string text_of_modes(const std::vector<int>& modes, const Footprint& footprint) {
   std::vector<int> u, v, other;
   for (std::size_t r = 0; r < modes.size(); ++r) {
     const Family family = footprint.rods[r].family;
@@ -140,7 +140,7 @@ std::optional<ShellState> StateMeasures::of(const ShellState& met, bool life, co
   record::StateRow& row = one.row;
   row.group = name_of_group(group_of(fine_, nodes.leftCols(joints), tolerance_mm_));
   row.kind = class_of(row.group, std::ranges::all_of(modes, [](int n) { return n == 0; }));
-  row.inflections = modes_told(modes, scene_->footprint);
+  row.inflections = text_of_modes(modes, scene_->footprint);
   row.energies = one.frame.energies;
   row.height_mm = one.frame.height_mm;
   const double plane = scene_->flat.origin.z();

@@ -19,7 +19,7 @@ using record::Disturbance;
 using record::StateName;
 
 constexpr int pushes = 8, paths = pushes + 1;  // per state; on the first the boundary is released
-constexpr double beyond = 0.98;                // times the progress at which a state ends
+constexpr double end_fraction = 0.98;          // times the progress at which a state ends
 
 /// Perturbs states on the mesh of judged_edges, and identifies those of a library by their joints
 /// on that mesh; one object per thread.
@@ -203,9 +203,9 @@ Result<std::vector<record::Transition>> transitions_between(
     // the range of a state whose equilibrium was not found again is unknown
     if (path == 0 && !std::isfinite(from.row.lives_to)) return;
     StateSearcher& hand = explorer.hand;
-    const auto rest = path == 0
-                          ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
-                          : hand.push_at_random(from.rest, path, watch);
+    const auto rest =
+        path == 0 ? hand.release_boundary(from.rest, end_fraction * from.row.lives_to, watch)
+                  : hand.push_at_random(from.rest, path, watch);
     if (rest) to[std::size_t(k)] = explorer.name_of(*rest, hand.energy_of(*rest));
   };
   TRY_DO(parallel_for(

@@ -43,9 +43,9 @@ PlanView::PlanView(const Box& box, const Eigen::MatrixXd& points) : at(box.middl
 }
 
 std::vector<Point> PlanView::line(const Eigen::MatrixXd& points) const {
-  std::vector<Point> placed;
-  for (const auto& point : points.colwise()) placed.push_back((*this)(point));
-  return placed;
+  std::vector<Point> polyline;
+  for (const auto& point : points.colwise()) polyline.push_back((*this)(point));
+  return polyline;
 }
 
 Canvas::Canvas(cairo_t* cairo, double width, double height)

@@ -112,21 +112,21 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
 
   // room for the label, for half a line of the outermost ticks' labels, and for the pointed ends
   const double point = 0.7 * bar_thickness(font_size);
-  const double top = box.y + 1.25 * line + std::max(line / 2, bar.beyond_high ? point : 0);
-  const double bottom = box.bottom() - std::max(line / 2, bar.beyond_low ? point : 0);
+  const double top = box.y + 1.25 * line + std::max(line / 2, bar.above_scale ? point : 0);
+  const double bottom = box.bottom() - std::max(line / 2, bar.below_scale ? point : 0);
   const Box body{box.x, top, bar_thickness(font_size), bottom - top};
   if (body.height < line) return;
 
   draw_colours(canvas, body, bar.scale);
   std::vector<Point> rim = {{body.x, body.y}};
   const double middle = body.middle().x;
-  if (bar.beyond_high) {
+  if (bar.above_scale) {
     canvas.polygon({{body.x, body.y}, {middle, body.y - point}, {body.right(), body.y}},
                    bar.scale(bar.scale.high));
     rim.push_back({middle, body.y - point});
   }
   rim.insert(rim.end(), {{body.right(), body.y}, {body.right(), body.bottom()}});
-  if (bar.beyond_low) {
+  if (bar.below_scale) {
     canvas.polygon(
         {{body.x, body.bottom()}, {middle, body.bottom() + point}, {body.right(), body.bottom()}},
         bar.scale(bar.scale.low));

@@ -15,8 +15,8 @@ namespace gridshell::render {
 struct ColourBar {
   std::string label;  ///< text with markup and unit: "*K*_{□} (rad)"
   ColourScale scale;
-  bool beyond_low = false,
-       beyond_high = false;  ///< values outside the scale occur, shown by pointed ends
+  bool below_scale = false,
+       above_scale = false;  ///< values outside the scale occur, shown by pointed ends
   std::string words = {};    ///< name of the quantity, vertical along the bar; empty: none
   bool ends = false;         ///< whether the ends of the scale have ticks too, round or not
 };

@@ -36,7 +36,7 @@ double bar_room(const PanelFigure& figure, const Grid& grid) {
 }
 
 /// Whether the row of the keys has room for the scale bar too.
-bool keys_beside_bar(const PanelFigure& figure, const Grid& grid) {
+bool keys_next_to_bar(const PanelFigure& figure, const Grid& grid) {
   if (figure.keys.empty() || figure.arrow) return false;
   double width = bar_room(figure, grid);
   for (const ColourKey& key : figure.keys)
@@ -65,7 +65,7 @@ Grid make_grid(const PanelFigure& figure) {
   // a scale bar is in the row of the keys, if there is one
   grid.foot = figure.scale_bar_mm > 0 || figure.arrow ? std::round(1.9 * grid.em) : 0;
   grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
-  if (keys_beside_bar(figure, grid)) grid.foot = 0;
+  if (keys_next_to_bar(figure, grid)) grid.foot = 0;
   if (figure.colour_bar)
     grid.bar = grid.gap + std::ceil(colour_bar_width(*figure.colour_bar, grid.em));
   return grid;
@@ -104,7 +104,7 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
   const Box last = grid.panel(grid.columns - 1);
   const double left = grid.left(), bottom = grid.bottom();
   Box keys{left, bottom - grid.foot - grid.keys, last.right() - left, grid.keys};
-  if (figure.scale_bar_mm > 0 && keys_beside_bar(figure, grid)) {
+  if (figure.scale_bar_mm > 0 && keys_next_to_bar(figure, grid)) {
     const double bar = bar_room(figure, grid);
     keys.width -= bar;
     draw_scale_bar(canvas, {keys.right(), keys.y - 0.3 * em, bar, keys.height}, figure.scale_bar_mm,

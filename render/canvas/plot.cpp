@@ -12,15 +12,15 @@ bool drawable(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 void draw_band(Canvas& canvas, const PlotFrame& frame, const Band& band) {
   const Box& in = frame.inside;
   std::vector<Point> outline;
-  const auto end = [](double place, double otherwise) {
-    return std::isfinite(place) ? place : otherwise;
+  const auto end = [](double coordinate, double otherwise) {
+    return std::isfinite(coordinate) ? coordinate : otherwise;
   };
   const std::size_t n = std::min({band.x.size(), band.low.size(), band.high.size()});
   for (std::size_t k = 0; k < n; ++k)
-    outline.push_back({end(frame.x.place(band.x[k]), band.x[k] > 0 ? in.right() : in.x),
-                       end(frame.y.place(band.high[k]), in.y)});
+    outline.push_back({end(frame.x.coordinate(band.x[k]), band.x[k] > 0 ? in.right() : in.x),
+                       end(frame.y.coordinate(band.high[k]), in.y)});
   for (std::size_t k = n; k-- > 0;)
-    outline.push_back({outline[k].x, end(frame.y.place(band.low[k]), in.bottom())});
+    outline.push_back({outline[k].x, end(frame.y.coordinate(band.low[k]), in.bottom())});
   canvas.polygon(outline, band.colour);
 }
 
@@ -60,20 +60,21 @@ void draw_references(Canvas& canvas, const PlotFrame& frame, const Plot& plot) {
   bool top_is_free = true;
   for (const ReferenceLine& line : plot.references)
     if (line.horizontal) {
-      const double y = frame.y.place(line.at);
+      const double y = frame.y.coordinate(line.at);
       top_is_free = top_is_free && !(y >= in.y && y < in.y + 3.5 * size);
       draw_horizontal(canvas, in, line, y, size);
     }
   for (const ReferenceLine& line : plot.references)
     if (!line.horizontal)
-      draw_vertical(canvas, in, line, frame.x.place(line.at), size, top_is_free);
+      draw_vertical(canvas, in, line, frame.x.coordinate(line.at), size, top_is_free);
 }
 
 void draw_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
-  const double zero = frame.y.logarithmic ? frame.inside.bottom() : frame.y.place(0);
+  const double zero = frame.y.logarithmic ? frame.inside.bottom() : frame.y.coordinate(0);
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
-    const double left = frame.x.place(s.x[k] - s.bar_width / 2);
-    const double right = frame.x.place(s.x[k] + s.bar_width / 2), top = frame.y.place(s.y[k]);
+    const double left = frame.x.coordinate(s.x[k] - s.bar_width / 2);
+    const double right = frame.x.coordinate(s.x[k] + s.bar_width / 2),
+                 top = frame.y.coordinate(s.y[k]);
     if (!std::isfinite(left + right + top)) continue;
     canvas.rectangle({left, std::min(top, zero), right - left, std::abs(zero - top)}, s.colour,
                      {{1, 1, 1, 1}, 0.5});
@@ -86,19 +87,19 @@ void draw_error_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
   const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour,
                       std::max(0.8, 0.17 * s.marker_size)};
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
-    const Point p = frame.place(s.x[k], s.y[k]);
+    const Point p = frame.point_at(s.x[k], s.y[k]);
     if (!drawable(p)) continue;
     if (k < s.y_error.size() && s.y_error[k] > 0) {
-      double low = frame.y.place(s.y[k] - s.y_error[k]);
+      double low = frame.y.coordinate(s.y[k] - s.y_error[k]);
       if (!std::isfinite(low)) low = frame.inside.bottom();
-      const double high = frame.y.place(s.y[k] + s.y_error[k]);
+      const double high = frame.y.coordinate(s.y[k] + s.y_error[k]);
       canvas.line({p.x, low}, {p.x, high}, stroke);
       for (double y : {low, high}) canvas.line({p.x - cap, y}, {p.x + cap, y}, stroke);
     }
     if (k < s.x_span.size() && s.x_span[k][1] > s.x_span[k][0]) {
-      double low = frame.x.place(s.x_span[k][0]);
+      double low = frame.x.coordinate(s.x_span[k][0]);
       if (!std::isfinite(low)) low = frame.inside.x;
-      const double high = frame.x.place(s.x_span[k][1]);
+      const double high = frame.x.coordinate(s.x_span[k][1]);
       canvas.line({low, p.y}, {high, p.y}, stroke);
       for (double x : {low, high}) canvas.line({x, p.y - cap}, {x, p.y + cap}, stroke);
     }
@@ -113,7 +114,7 @@ void draw_line_and_markers(Canvas& canvas, const PlotFrame& frame, const Series&
   };
   const std::size_t n = std::min(s.x.size(), s.y.size());
   for (std::size_t k = 0; k < n; ++k) {
-    const Point p = frame.place(s.x[k], s.y[k]);
+    const Point p = frame.point_at(s.x[k], s.y[k]);
     if (drawable(p))
       run.push_back(p);
     else
@@ -122,7 +123,7 @@ void draw_line_and_markers(Canvas& canvas, const PlotFrame& frame, const Series&
   flush();
   const Colour fill = s.hollow ? white : s.colour;
   for (std::size_t k = 0; k < n; ++k)
-    if (const Point p = frame.place(s.x[k], s.y[k]); drawable(p))
+    if (const Point p = frame.point_at(s.x[k], s.y[k]); drawable(p))
       canvas.marker(s.marker, p, s.marker_size, fill, {s.colour, s.hollow ? 0.9 : 0});
 }
 
@@ -155,7 +156,7 @@ Series mark_series(const std::string& name, Colour colour, Marker marker, double
 }
 
 Box note_box(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const Note& note) {
-  const Point at = frame.place(note.x, note.y);
+  const Point at = frame.point_at(note.x, note.y);
   Box box = canvas.measure(
       note.text, {.size = plot.font_size, .align_x = note.align_x, .align_y = note.align_y});
   const Box in = frame.inside.inset(0.4 * plot.font_size);

@@ -60,10 +60,10 @@ PlotAxis choose_range(const Plot& plot, bool of_x) {
     high = std::max(low + room, high + (axis.high ? 0 : room));
   }
   const double room = 0.05 * (high - low);
-  const bool bars_stand_on_low =
+  const bool bars_from_low =
       !of_x && range.low == 0 &&
       std::ranges::any_of(plot.series, [](const Series& s) { return s.kind == SeriesKind::bars; });
-  if (!axis.low && !bars_stand_on_low) low -= room;
+  if (!axis.low && !bars_from_low) low -= room;
   if (!axis.high) high += room;
   return {axis.low.value_or(unwarp(low)), axis.high.value_or(unwarp(high)), axis.logarithmic, 0, 1};
 }
@@ -90,7 +90,8 @@ std::vector<Tick> ticks_without_overlap(const Canvas& canvas, const PlotAxis& ax
     bool overlap = false;
     for (const Tick& tick : ticks) {
       if (!tick.major) continue;
-      const double half = canvas.measure(tick.label, style).width / 2, at = axis.place(tick.value);
+      const double half = canvas.measure(tick.label, style).width / 2,
+                   at = axis.coordinate(tick.value);
       overlap |= at - half < end;
       end = at + half + 0.6 * style.size;
     }
@@ -109,19 +110,19 @@ bool passes(const Series& s, const PlotFrame& frame, const Box& box) {
     return false;
   };
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
-    const Point p = frame.place(s.x[k], s.y[k]);
+    const Point p = frame.point_at(s.x[k], s.y[k]);
     if (s.kind == SeriesKind::bars) {
-      const double half = std::abs(frame.x.place(s.x[k] + s.bar_width / 2) - p.x);
-      const double zero = frame.y.logarithmic ? frame.inside.bottom() : frame.y.place(0);
+      const double half = std::abs(frame.x.coordinate(s.x[k] + s.bar_width / 2) - p.x);
+      const double zero = frame.y.logarithmic ? frame.inside.bottom() : frame.y.coordinate(0);
       if (box.overlaps({p.x - half, std::min(p.y, zero), 2 * half, std::abs(zero - p.y)}))
         return true;
     }
     if (inside(p)) return true;
     if (s.kind == SeriesKind::points && s.line_width > 0 && k > 0 &&
-        segment(frame.place(s.x[k - 1], s.y[k - 1]), p))
+        segment(frame.point_at(s.x[k - 1], s.y[k - 1]), p))
       return true;
-    if (k < s.y_error.size() && segment({p.x, frame.y.place(s.y[k] - s.y_error[k])},
-                                        {p.x, frame.y.place(s.y[k] + s.y_error[k])}))
+    if (k < s.y_error.size() && segment({p.x, frame.y.coordinate(s.y[k] - s.y_error[k])},
+                                        {p.x, frame.y.coordinate(s.y[k] + s.y_error[k])}))
       return true;
   }
   return false;
@@ -134,7 +135,7 @@ bool hides(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const
     if (box.overlaps(note_box(canvas, plot, frame, note))) return true;
   for (const ReferenceLine& line : plot.references) {
     const Box in = frame.inside;
-    const double at = line.horizontal ? frame.y.place(line.at) : frame.x.place(line.at);
+    const double at = line.horizontal ? frame.y.coordinate(line.at) : frame.x.coordinate(line.at);
     const double room = line.label.empty() ? 0.5 : 1.4 * plot.font_size;
     if (box.overlaps(line.horizontal ? Box{in.x, at - room, in.width, 2 * room}
                                      : Box{at - 0.5, in.y, 1, in.height}))
@@ -145,7 +146,7 @@ bool hides(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const
 
 }  // namespace
 
-double PlotAxis::place(double value) const {
+double PlotAxis::coordinate(double value) const {
   if (logarithmic && !(value > 0)) return std::numeric_limits<double>::quiet_NaN();
   const double t =
       logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
@@ -211,7 +212,7 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
   canvas.rectangle(in, {0, 0, 0, 0}, stroke);
   // ticks point inwards, on both sides
   for (const Tick& tick : frame.x_ticks) {
-    const double x = frame.x.place(tick.value), length = tick.major ? long_tick : short_tick;
+    const double x = frame.x.coordinate(tick.value), length = tick.major ? long_tick : short_tick;
     canvas.line({x, in.bottom()}, {x, in.bottom() - length}, stroke);
     canvas.line({x, in.y}, {x, in.y + length}, stroke);
     if (tick.major)
@@ -219,7 +220,7 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
                   {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top});
   }
   for (const Tick& tick : frame.y_ticks) {
-    const double y = frame.y.place(tick.value), length = tick.major ? long_tick : short_tick;
+    const double y = frame.y.coordinate(tick.value), length = tick.major ? long_tick : short_tick;
     canvas.line({in.x, y}, {in.x + length, y}, stroke);
     canvas.line({in.right(), y}, {in.right() - length, y}, stroke);
     if (tick.major)
@@ -257,22 +258,24 @@ Legend::Legend(const Canvas& canvas, const Plot& plot)
     e.width = key_ + 0.5 * size_ + canvas.measure(e.name, {.size = size_}).width;
 }
 
-Box Legend::corner_box(const Box& in, LegendPosition place) const {
+Box Legend::corner_box(const Box& in, LegendPosition position) const {
   double width = 0;
   for (const Entry& e : entries_) width = std::max(width, e.width);
   width += 0.8 * size_;
   const double height = double(entries_.size()) * row_ + 0.4 * size_, margin = 0.7 * size_;
-  const bool left = place == LegendPosition::upper_left || place == LegendPosition::lower_left;
-  const bool upper = place == LegendPosition::upper_left || place == LegendPosition::upper_right;
+  const bool left =
+      position == LegendPosition::upper_left || position == LegendPosition::lower_left;
+  const bool upper =
+      position == LegendPosition::upper_left || position == LegendPosition::upper_right;
   return {left ? in.x + margin : in.right() - margin - width,
           upper ? in.y + margin : in.bottom() - margin - height, width, height};
 }
 
 LegendPosition Legend::free_corner(const Canvas& canvas, const PlotFrame& frame) const {
-  for (LegendPosition place : {LegendPosition::upper_right, LegendPosition::upper_left,
-                               LegendPosition::lower_right, LegendPosition::lower_left}) {
-    const Box box = corner_box(frame.inside, place);
-    if (frame.inside.contains(box) && !hides(canvas, plot_, frame, box)) return place;
+  for (LegendPosition position : {LegendPosition::upper_right, LegendPosition::upper_left,
+                                  LegendPosition::lower_right, LegendPosition::lower_left}) {
+    const Box box = corner_box(frame.inside, position);
+    if (frame.inside.contains(box) && !hides(canvas, plot_, frame, box)) return position;
   }
   return LegendPosition::none;
 }
@@ -296,8 +299,8 @@ void Legend::draw_above(Canvas& canvas, const PlotFrame& frame, double top) cons
   }
 }
 
-void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition place) const {
-  const Box box = corner_box(frame.inside, place);
+void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition position) const {
+  const Box box = corner_box(frame.inside, position);
   canvas.rectangle(box, {1, 1, 1, 0.85f});
   double y = box.y + 0.2 * size_ + row_ / 2;
   for (const Entry& e : entries_) {

@@ -12,7 +12,7 @@ struct PlotAxis {
   double from = 0, to = 1;  ///< canvas coordinates of low and high
 
   /// canvas coordinate of a value; NaN for a value that is not positive on a logarithmic axis
-  double place(double value) const;
+  double coordinate(double value) const;
 };
 
 /// The axes' frame, with ticks.
@@ -21,7 +21,7 @@ struct PlotFrame {
   PlotAxis x, y;
   std::vector<Tick> x_ticks, y_ticks;
 
-  Point place(double px, double py) const { return {x.place(px), y.place(py)}; }
+  Point point_at(double px, double py) const { return {x.coordinate(px), y.coordinate(py)}; }
 };
 
 /// The title broken into lines that fit into the box's width, its style, and its height with a gap
@@ -49,7 +49,7 @@ class Legend {
   LegendPosition free_corner(const Canvas& canvas, const PlotFrame& frame) const;
   /// The legend's height in rows above axes of that width.
   double height_above_axes(double width) const;
-  void draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition place) const;
+  void draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition position) const;
   void draw_above(Canvas& canvas, const PlotFrame& frame, double top) const;
 
  private:
@@ -59,7 +59,7 @@ class Legend {
     std::string name;
     double width = 0;  ///< key and name
   };
-  Box corner_box(const Box& inside, LegendPosition place) const;
+  Box corner_box(const Box& inside, LegendPosition position) const;
   void draw_entry(Canvas& canvas, const Entry& entry, double x, double middle, double end) const;
 
   const Plot& plot_;

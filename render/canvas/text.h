@@ -52,7 +52,7 @@ std::string length_text(double mm);
 
 /// The length of a scale bar for an object of half size `size_mm`: the given length or, if that is
 /// much shorter or longer than the object, a round one. 0 remains 0.
-inline double scale_bar_beside(double wanted_mm, double size_mm) {
+inline double fitted_scale_bar(double wanted_mm, double size_mm) {
   const bool fits = wanted_mm >= 0.03 * size_mm && wanted_mm <= 2 * size_mm;
   return wanted_mm <= 0 || fits ? wanted_mm : nice_ceiling(0.2 * size_mm);
 }

@@ -58,14 +58,14 @@ std::int16_t share_of_widest(float radius) {
 constexpr int most_steps = 4;  // pieces along a cell's side
 
 /// The position of a node: index `at` in rod `rod`.
-struct Place {
+struct RodPosition {
   int rod = 0, at = 0;
 };
 
 /// The positions of every node.
-class Places {
+class RodPositions {
  public:
-  Places(const record::Layout& layout, std::size_t nodes) : first_(nodes + 1) {
+  RodPositions(const record::Layout& layout, std::size_t nodes) : first_(nodes + 1) {
     for (const std::vector<int>& rod : layout.rods)
       for (const int node : rod) ++first_[std::size_t(node) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -75,19 +75,19 @@ class Places {
       for (int k = 0; k < int(layout.rods[r].size()); ++k)
         all_[next[std::size_t(layout.rods[r][k])]++] = {r, k};
   }
-  std::span<const Place> operator[](int node) const {
+  std::span<const RodPosition> operator[](int node) const {
     return std::span(all_).subspan(first_[node], first_[node + 1] - first_[node]);
   }
 
  private:
   std::vector<std::size_t> first_;  // into all_, of each node
-  std::vector<Place> all_;
+  std::vector<RodPosition> all_;
 };
 
 /// The nodes from `a` to `b` along their common rod; `a` and `b` alone if there is none.
-std::vector<int> side(const record::Layout& layout, const Places& where, int a, int b) {
-  for (const Place& from : where[a])
-    for (const Place& to : where[b]) {
+std::vector<int> side(const record::Layout& layout, const RodPositions& where, int a, int b) {
+  for (const RodPosition& from : where[a])
+    for (const RodPosition& to : where[b]) {
       if (from.rod != to.rod) continue;
       const int step = from.at <= to.at ? 1 : -1;
       std::vector<int> result;
@@ -134,8 +134,8 @@ bool straight(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side, float
 
 /// The patch of a cell; its four corners alone if no side is further from its chord than half the
 /// tolerance.
-Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes, const Places& where,
-                  const record::Cell& cell, float tolerance) {
+Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
+                  const RodPositions& where, const record::Cell& cell, float tolerance) {
   std::array<int, 4> corner;
   for (int k = 0; k < 4; ++k) corner[k] = layout.joints[cell.joints[k]].node;
   const std::array<std::vector<int>, 4> sides = {
@@ -276,7 +276,7 @@ std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout
                                         const Eigen::Matrix3Xd& nodes,
                                         std::span<const Eigen::Vector4f> colours,
                                         float tolerance_mm) {
-  const Places where(layout, std::size_t(nodes.cols()));
+  const RodPositions where(layout, std::size_t(nodes.cols()));
   std::vector<CellPatch> patches;
   for (int c = 0; c < int(layout.cells.size()); ++c)
     if (colours[c].w() > 0)

@@ -43,9 +43,9 @@ constexpr EventMark marks[] = {
 };
 
 /// The position of a point in the panel.
-class Place {
+class Coordinates {
  public:
-  Place(const std::vector<BranchPoint>& points, BranchAxis axis)
+  Coordinates(const std::vector<BranchPoint>& points, BranchAxis axis)
       : radius_(has_radius(points)), axis_(axis) {}
   double x(const BranchPoint& p) const { return radius_ ? p.boundary_radius_mm : p.progress; }
   double y(const BranchPoint& p) const {
@@ -69,7 +69,8 @@ bool stable_between(const std::vector<BranchPoint>& points, std::size_t to) {
 }
 
 /// The branches in pieces that are all stable or all unstable.
-std::vector<Series> pieces_of(const std::vector<BranchPoint>& points, const Place& place) {
+std::vector<Series> pieces_of(const std::vector<BranchPoint>& points,
+                              const Coordinates& coordinates) {
   std::vector<Series> pieces;
   for (std::size_t k = 1; k < points.size(); ++k) {
     const BranchPoint &from = points[k - 1], &to = points[k];
@@ -79,33 +80,34 @@ std::vector<Series> pieces_of(const std::vector<BranchPoint>& points, const Plac
     if (begins || pieces.back().dash.empty() != stable) {
       Series piece = line_series("", colour_of(to.branch), to.branch == 0 ? 1.3 : 1.1);
       if (!stable) piece.dash = {dash_on, dash_off};
-      piece.add(place.x(from), place.y(from));
+      piece.add(coordinates.x(from), coordinates.y(from));
       pieces.push_back(std::move(piece));
     }
-    pieces.back().add(place.x(to), place.y(to));
+    pieces.back().add(coordinates.x(to), coordinates.y(to));
   }
   return pieces;
 }
 
-Series marks_of(const std::vector<BranchPoint>& points, const Place& place, const EventMark& mark) {
+Series marks_of(const std::vector<BranchPoint>& points, const Coordinates& coordinates,
+                const EventMark& mark) {
   Series series = mark_series("", ink, mark.marker, 4.2, mark.hollow);
   for (const BranchPoint& p : points)
-    if (p.event == mark.event) series.add(place.x(p), place.y(p));
+    if (p.event == mark.event) series.add(coordinates.x(p), coordinates.y(p));
   return series;
 }
 
 /// The range of x with all events, if it is a small part of the axis; otherwise empty.
 std::optional<std::pair<double, double>> close_up(const std::vector<BranchPoint>& points,
-                                                  const Place& place) {
+                                                  const Coordinates& coordinates) {
   double low = INFINITY, high = -INFINITY, least = INFINITY, most = -INFINITY;
   for (const BranchPoint& p : points) {
-    least = std::min(least, place.x(p));
-    most = std::max(most, place.x(p));
+    least = std::min(least, coordinates.x(p));
+    most = std::max(most, coordinates.x(p));
     if (p.event != BranchEvent::bifurcation && p.event != BranchEvent::turn &&
         p.event != BranchEvent::joins)
       continue;
-    low = std::min(low, place.x(p));
-    high = std::max(high, place.x(p));
+    low = std::min(low, coordinates.x(p));
+    high = std::max(high, coordinates.x(p));
   }
   if (!(high >= low) || high - low > (most - least) / 6) return std::nullopt;
   const double room = std::max(high - low, 0.01 * (most - least));
@@ -188,17 +190,17 @@ void add_path(const std::vector<LoadPoint>& points, const std::string& name, Col
   Series piece;
   for (const LoadPoint& point : points) {
     if (point.load_case != name) continue;
-    const bool holds = point.negative_pivots == 0;
-    if (!before || holds != stable) {
+    const bool now_stable = point.negative_pivots == 0;
+    if (!before || now_stable != stable) {
       plot.add(std::move(piece));
       piece = line_series(named ? "" : name, colour, 1.2);
-      if (!holds) piece.dash = {3.2, 2.2};
+      if (!now_stable) piece.dash = {3.2, 2.2};
       if (before) piece.add(before->way_mm, before->factor);
       named = true;
     }
     piece.add(point.way_mm, point.factor);
     before = &point;
-    stable = holds;
+    stable = now_stable;
   }
   plot.add(std::move(piece));
 }
@@ -217,14 +219,15 @@ Series strength_marks(const std::vector<LoadPoint>& points,
                       const std::vector<record::LoadRow>& cases) {
   Series marks = mark_series("strength reached", ink, Marker::triangle, 4);
   for (const record::LoadRow& row : cases) {
-    const auto beyond = std::ranges::find_if(points, [&](const LoadPoint& point) {
+    const auto reached = std::ranges::find_if(points, [&](const LoadPoint& point) {
       return point.load_case == row.load_case && point.utilisation >= 1;
     });
-    if (!std::isfinite(row.strength_factor) || beyond == points.end()) continue;
-    double displacement = beyond->way_mm;
-    if (beyond != points.begin() && beyond[-1].load_case == row.load_case)
-      displacement -= (beyond->utilisation - 1) / (beyond->utilisation - beyond[-1].utilisation) *
-                      (displacement - beyond[-1].way_mm);
+    if (!std::isfinite(row.strength_factor) || reached == points.end()) continue;
+    double displacement = reached->way_mm;
+    if (reached != points.begin() && reached[-1].load_case == row.load_case)
+      displacement -= (reached->utilisation - 1) /
+                      (reached->utilisation - reached[-1].utilisation) *
+                      (displacement - reached[-1].way_mm);
     marks.add(displacement, row.strength_factor);
     marks.y_error.push_back(row.strength_error);
   }
@@ -234,22 +237,22 @@ Series strength_marks(const std::vector<LoadPoint>& points,
 }  // namespace
 
 Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
-  const Place place(points, axis);
+  const Coordinates coordinates(points, axis);
   Plot plot;
   plot.x.label = has_radius(points) ? "*R*_{a} (mm); actuation ←" : "progress; actuation →";
   plot.y.label = axis == BranchAxis::height ? "height (mm)" : "asymmetry, r.m.s. over length scale";
   plot.legend = LegendPosition::none;
   plot.font_size = 8;
-  plot.series = pieces_of(points, place);
+  plot.series = pieces_of(points, coordinates);
   // the path itself is drawn last
   std::stable_partition(plot.series.begin(), plot.series.end(),
                         [](const Series& s) { return s.line_width < 1.2; });
-  for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
+  for (const EventMark& mark : marks) plot.add(marks_of(points, coordinates, mark));
   // the number of a branch in the table is at its end
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k].branch > 0 &&
         (k + 1 == points.size() || points[k + 1].branch != points[k].branch))
-      plot.notes.push_back({place.x(points[k]), place.y(points[k]),
+      plot.notes.push_back({coordinates.x(points[k]), coordinates.y(points[k]),
                             std::to_string(points[k].branch), AlignX::right, AlignY::bottom,
                             colour_of(points[k].branch)});
   return plot;
@@ -259,7 +262,7 @@ Result<void> write_branches(const std::filesystem::path& stem,
                             const std::vector<BranchPoint>& points, const std::string& title) {
   std::vector<Plot> panels{branches_plot(points, BranchAxis::height),
                            branches_plot(points, BranchAxis::amplitude)};
-  if (const auto part = close_up(points, Place(points, BranchAxis::height)))
+  if (const auto part = close_up(points, Coordinates(points, BranchAxis::height)))
     for (std::size_t k = 0; k < 2; ++k) panels.push_back(part_of(panels[k], *part));
   const double rows = double(panels.size() / 2);
   const double height = 2 * margin + title_room + legend_room + rows * (panel_height + gap) - gap;

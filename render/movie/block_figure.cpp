@@ -34,15 +34,15 @@ std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
 }
 
 /// A block and its displacement in the picture.
-struct PlacedBlock {
+struct MovedBlock {
   const record::Part* part = nullptr;
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
 };
 
 /// The blocks of a single run, separated from their positions in the assemblage; of several runs
 /// one block of each kind, in a row.
-std::vector<PlacedBlock> placed_blocks(const std::vector<NetRun>& runs) {
-  std::vector<PlacedBlock> blocks;
+std::vector<MovedBlock> moved_blocks(const std::vector<NetRun>& runs) {
+  std::vector<MovedBlock> blocks;
   if (runs.size() == 1) {
     const std::vector<record::Part>& parts = runs.front().run->layout.parts;
     const auto moves = apart(parts, &record::Part::net, 0.3);
@@ -67,19 +67,18 @@ std::vector<PlacedBlock> placed_blocks(const std::vector<NetRun>& runs) {
 }
 
 /// The blocks as one trajectory of a single frame; `owner` gets the index of each point's block.
-record::Trajectory blocks_apart(const record::Layout& layout,
-                                const std::vector<PlacedBlock>& placed,
+record::Trajectory blocks_apart(const record::Layout& layout, const std::vector<MovedBlock>& moved,
                                 std::vector<std::size_t>& owner) {
   record::Trajectory blocks;
   blocks.layout.spacing_mm = layout.spacing_mm;
   blocks.layout.rod_diameter_mm = layout.rod_diameter_mm;
   blocks.layout.length_scale_mm = layout.length_scale_mm;
   record::Frame frame;
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    const record::Part& part = *placed[k].part;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const record::Part& part = *moved[k].part;
     const auto first = frame.nodes.cols();
     frame.nodes.conservativeResize(3, first + part.net.cols());
-    frame.nodes.rightCols(part.net.cols()) = part.net.colwise() + placed[k].move;
+    frame.nodes.rightCols(part.net.cols()) = part.net.colwise() + moved[k].move;
     owner.resize(std::size_t(frame.nodes.cols()), k);
     for (std::vector<int> rod : part.rods) {
       for (int& point : rod) point += int(first);
@@ -100,10 +99,10 @@ struct Extent {
   Eigen::Vector2d size() const { return high - low; }
 };
 
-void draw_rods(Canvas& canvas, const PlanView& place, const record::Part& part,
+void draw_rods(Canvas& canvas, const PlanView& plan, const record::Part& part,
                const Eigen::Vector3d& move, const Stroke& stroke) {
   for (const auto& rod : part.rods)
-    canvas.line(place(part.flat.col(rod.front()) + move), place(part.flat.col(rod.back()) + move),
+    canvas.line(plan(part.flat.col(rod.front()) + move), plan(part.flat.col(rod.back()) + move),
                 stroke);
 }
 
@@ -172,9 +171,9 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
                                 Watch& watch) {
   const MovieStyle style = uncoloured(movie_style);
   const BlockKinds kinds(runs);
-  const auto placed = placed_blocks(runs);
+  const auto moved = moved_blocks(runs);
   std::vector<std::size_t> owner;
-  const record::Trajectory blocks = blocks_apart(runs.front().run->layout, placed, owner);
+  const record::Trajectory blocks = blocks_apart(runs.front().run->layout, moved, owner);
   TRY_DO(check_showable(blocks, style));
   const Stage stage(blocks, style);
   Drawing drawing = stage.drawing(blocks.frames.front());
@@ -182,10 +181,10 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
   drawing.joint_diameter_mm = 0;
   drawing.rod_diameter_mm *= 1.5;
   for (const std::size_t block : owner)
-    drawing.node_colours.push_back(kinds.colour(placed[block].part->name));
+    drawing.node_colours.push_back(kinds.colour(moved[block].part->name));
   // with one block of each kind, letters are in front of the blocks
-  for (std::size_t k = 0; k < placed.size() && runs.size() > 1; ++k) {
-    const auto& [part, move] = placed[k];
+  for (std::size_t k = 0; k < moved.size() && runs.size() > 1; ++k) {
+    const auto& [part, move] = moved[k];
     const Eigen::Vector3d low = part->net.rowwise().minCoeff(),
                           high = part->net.rowwise().maxCoeff();
     const Eigen::Vector3d before(0.5 * (low.x() + high.x()),
@@ -195,7 +194,7 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
   PanelFigure figure = empty_figure(style, 1);
   TRY_DO(add_panel(figure, stage, std::move(drawing), {}, nullptr, watch));
   figure.keys = kinds.keys();
-  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, blocks.layout.length_scale_mm);
+  figure.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, blocks.layout.length_scale_mm);
   figure.pixels_per_mm = stage.pixels_per_mm();
   return figure;
 }

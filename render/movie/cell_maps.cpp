@@ -100,14 +100,15 @@ std::vector<MethodPanel> panels_of(const std::vector<StabilityRow>& rows) {
 }
 
 /// The position of a panel. Panels of a map are side by side, as many as fit.
-struct Place {
+struct PanelPosition {
   const MethodPanel* panel;
   Point at;
   bool first;  ///< of its map: the map's name is above
 };
 
-std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double width, double* height) {
-  std::vector<Place> places;
+std::vector<PanelPosition> panel_positions(const std::vector<MethodPanel>& panels, double width,
+                                           double* height) {
+  std::vector<PanelPosition> positions;
   double x = 0, y = title_room, row = 0;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const MethodPanel& panel = panels[k];
@@ -123,12 +124,12 @@ std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double widt
       x = row = 0;
     }
     if (joins && first) x += heading_gap;
-    places.push_back({&panel, {x, y}, first});
+    positions.push_back({&panel, {x, y}, first});
     x += panel.width() + gap;
     row = std::max(row, panel.height() + map_room);
   }
   *height = y + row + legend_room;
-  return places;
+  return positions;
 }
 
 void draw_outcome(Canvas& canvas, const Box& box, RunOutcome outcome) {
@@ -185,11 +186,11 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
     draw_outcome(canvas, map.cell(index(panel.x, cell->x), index(panel.y, cell->y)), cell->outcome);
   draw_frame(canvas, map);
   // a line at x = 1, the theoretical limit of a "step over"
-  const auto beyond = panel.x.upper_bound(1.0);
-  if (!panel.x_name.starts_with("step over") || beyond == panel.x.begin() ||
-      beyond == panel.x.end())
+  const auto past_limit = panel.x.upper_bound(1.0);
+  if (!panel.x_name.starts_with("step over") || past_limit == panel.x.begin() ||
+      past_limit == panel.x.end())
     return;
-  const double x = map.cell(index(panel.x, *beyond), 0).x;
+  const double x = map.cell(index(panel.x, *past_limit), 0).x;
   canvas.line({x, map.box.y - 1}, {x, map.box.bottom() + 1}, {ink, 1.4, {3, 2}});
 }
 
@@ -221,8 +222,8 @@ class SweepMap {
       CasePanel made{one, std::vector<SweepCell>(x_.texts.size() * y_.texts.size())};
       for (const auto& row : table.rows) {
         if (row.keys.case_name != one) continue;
-        SweepCell& cell =
-            made.cells[place_of(table, y_, row, 1) * x_.texts.size() + place_of(table, x_, row, 0)];
+        SweepCell& cell = made.cells[index_on_scale(table, y_, row, 1) * x_.texts.size() +
+                                     index_on_scale(table, x_, row, 0)];
         const double value = number_of(row, view.figure);
         cell.failed += row.result.outcome != record::PointOutcome::done;
         cell.limited = cell.limited || !limit_of(row).empty();
@@ -346,7 +347,7 @@ std::string outcome_label(RunOutcome outcome) {
 double outcome_maps_height(const std::vector<StabilityRow>& rows, double width) {
   const auto panels = panels_of(rows);
   double height = 0;
-  places_of(panels, width, &height);
+  panel_positions(panels, width, &height);
   return height;
 }
 
@@ -357,12 +358,12 @@ void draw_outcome_maps(Canvas& canvas, const Box& box, const std::vector<Stabili
   canvas.text(
       title, {box.middle().x, box.y + 2},
       {.size = size + 1.5, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
-  for (const Place& place : places_of(panels, box.width, &height)) {
-    const Point at{box.x + place.at.x, box.y + place.at.y};
-    if (place.first)
-      canvas.text(plain(place.panel->map + ", by " + spaced(place.panel->y_name)),
-                  {at.x + 4, at.y + 4}, {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
-    draw_panel(canvas, *place.panel, {at.x, at.y + map_room});
+  for (const PanelPosition& one : panel_positions(panels, box.width, &height)) {
+    const Point at{box.x + one.at.x, box.y + one.at.y};
+    if (one.first)
+      canvas.text(plain(one.panel->map + ", by " + spaced(one.panel->y_name)), {at.x + 4, at.y + 4},
+                  {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
+    draw_panel(canvas, *one.panel, {at.x, at.y + map_room});
   }
   // the first row of patches has the outcomes that a user would notice
   Patches patches{.row_width = box.width, .row_height = 15, .font_size = size};

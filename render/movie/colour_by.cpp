@@ -82,15 +82,15 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
     bar.scale.low = all.low;
     bar.scale.high = std::max(all.high, all.low + quantity.least_end);
   }
-  bar.beyond_low = all.any() && !quantity.size && all.low < bar.scale.low;
-  bar.beyond_high = all.any() && all.high > bar.scale.high;
+  bar.below_scale = all.any() && !quantity.size && all.low < bar.scale.low;
+  bar.above_scale = all.any() && all.high > bar.scale.high;
   return bar;
 }
 
 ColourBar displacement_bar(const Surveys& runs) {
   ColourBar bar{.label = {}, .scale = {sequential, 0, 1, paling}};
   for (const RunSummary* run : runs)
-    bar.beyond_high |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
+    bar.above_scale |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
   return bar;
 }
 
@@ -154,8 +154,8 @@ std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& st
   bar.scale.low = style.look.range[0];
   bar.scale.high = style.look.range[1];
   const Interval all = all_of(runs, by);
-  bar.beyond_low = all.any() && all.low < bar.scale.low;
-  bar.beyond_high = all.any() && all.high > bar.scale.high;
+  bar.below_scale = all.any() && all.low < bar.scale.low;
+  bar.above_scale = all.any() && all.high > bar.scale.high;
   return bar;
 }
 

@@ -16,23 +16,23 @@ const Colour grey{0.45f, 0.45f, 0.48f, 1};
 const TextStyle usual{.size = 8.5};
 
 /// The left edge and the width of every column.
-std::vector<std::pair<double, double>> places_of(const std::vector<TableColumn>& columns) {
+std::vector<std::pair<double, double>> column_spans(const std::vector<TableColumn>& columns) {
   constexpr double gap = 8;
   double known = gap * double(columns.size() - 1);
   for (const TableColumn& column : columns) known += column.width;
-  std::vector<std::pair<double, double>> places;
+  std::vector<std::pair<double, double>> spans;
   double x = a4_margin;
   for (const TableColumn& column : columns) {
     const double width = column.width > 0 ? column.width : text_width - known;
-    places.emplace_back(x, width);
+    spans.emplace_back(x, width);
     x += width + gap;
   }
-  return places;
+  return spans;
 }
 
-void draw_cell(Canvas& canvas, const std::string& marked, const std::pair<double, double>& place,
+void draw_cell(Canvas& canvas, const std::string& marked, const std::pair<double, double>& span,
                double y, TextStyle style) {
-  const auto [x, width] = place;
+  const auto [x, width] = span;
   const Point at{style.align_x == AlignX::right ? x + width : x, y + line - 3};
   canvas.text(marked, at, canvas.fitted(marked, width, style));
 }
@@ -70,7 +70,7 @@ std::vector<TableRow> cut_list(const FabricationPlan& work) {
     const auto equal = [&](const std::string& as) {
       return std::ranges::find_if(rows, [&](const TableRow& row) {
         return row.cells[2] == length && row.cells[3] == as &&
-               row.stands_out == rod.hard_to_build();
+               row.highlighted == rod.hard_to_build();
       });
     };
     auto same = equal(marks);
@@ -117,12 +117,12 @@ void Sheets::text(const std::string& plain_text) {
 
 void Sheets::table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows) {
   constexpr std::size_t most_together = 20;  // lines of a row
-  const auto places = places_of(columns);
+  const auto spans = column_spans(columns);
   const std::size_t head = items_.size();
   add({line + 3,
        [=](Canvas& canvas, double y) {
          for (std::size_t k = 0; k < columns.size(); ++k)
-           draw_cell(canvas, columns[k].title, places[k], y,
+           draw_cell(canvas, columns[k].title, spans[k], y,
                      {.size = usual.size, .bold = true, .align_x = columns[k].align});
          canvas.line({a4_margin, y + line + 1}, {a4_width - a4_margin, y + line + 1}, {ink, 0.6});
        },
@@ -132,17 +132,17 @@ void Sheets::table(const std::vector<TableColumn>& columns, const std::vector<Ta
     std::size_t lines = 1;
     for (std::size_t k = 0; k < row.cells.size(); ++k) {
       const bool broken = columns[k].width == 0 || columns[k].align == AlignX::left;
-      cells.push_back(broken ? lines_of(row.cells[k], places[k].second, usual)
+      cells.push_back(broken ? lines_of(row.cells[k], spans[k].second, usual)
                              : std::vector<std::string>{row.cells[k]});
       lines = std::max(lines, cells.back().size());
     }
     // only a row higher than most may continue on the next sheet
     for (std::size_t n = 0; n < lines; ++n)
       add({line,
-           [=, colour = row.stands_out ? alarm_red : ink](Canvas& canvas, double y) {
+           [=, colour = row.highlighted ? alarm_red : ink](Canvas& canvas, double y) {
              for (std::size_t k = 0; k < cells.size(); ++k)
                if (n < cells[k].size())
-                 draw_cell(canvas, plain(cells[k][n]), places[k], y,
+                 draw_cell(canvas, plain(cells[k][n]), spans[k], y,
                            {.size = usual.size, .colour = colour, .align_x = columns[k].align});
            },
            lines <= most_together && n + 1 < lines, head});

@@ -19,10 +19,10 @@ struct TableColumn {
       AlignX::right;  ///< at the left, or of the remaining width: text is broken into lines
 };
 
-/// A row of a table, in plain text; red if `stands_out`.
+/// A row of a table, in plain text; red if `highlighted`.
 struct TableRow {
   std::vector<std::string> cells;
-  bool stands_out = false;
+  bool highlighted = false;
 };
 
 /// A PDF of A4 sheets, filled from the top with headings, text, tables, pictures and plots. An item

@@ -63,23 +63,23 @@ bool reached(const std::vector<Mark>& marks, MarkKind kind, int at) {
 
 // draws a coloured length for a lasting state and a sign for an event
 void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks,
-                const std::vector<double>& places, int at, double size) {
+                const std::vector<double>& positions, int at, double size) {
   // position of a frame, also between two frames
-  const auto place = [&](double frame) {
-    const double k = std::clamp(frame, 0.0, double(places.size() - 1));
-    const std::size_t before = std::size_t(k), after = std::min(before + 1, places.size() - 1);
-    return bar.x + bar.width * std::lerp(places[before], places[after], k - double(before));
+  const auto x_of = [&](double frame) {
+    const double k = std::clamp(frame, 0.0, double(positions.size() - 1));
+    const std::size_t before = std::size_t(k), after = std::min(before + 1, positions.size() - 1);
+    return bar.x + bar.width * std::lerp(positions[before], positions[after], k - double(before));
   };
   for (const Sign& sign : signs)
     for (const Mark& mark : marks) {
       if (mark.kind != sign.kind || mark.at > at) continue;
       if (sign.marker == Marker::square) {
-        const double from = place(mark.at - 0.5), to = place(std::min(mark.at + 0.5, double(at)));
+        const double from = x_of(mark.at - 0.5), to = x_of(std::min(mark.at + 0.5, double(at)));
         const double width = std::max(to - from, 0.12 * size);
         canvas.rectangle({std::min(from, bar.right() - width), bar.y, width, bar.height},
                          sign.colour);
       } else {
-        canvas.marker(sign.marker, {place(mark.at), bar.middle().y}, 0.7 * size, sign.colour,
+        canvas.marker(sign.marker, {x_of(mark.at), bar.middle().y}, 0.7 * size, sign.colour,
                       {{1, 1, 1, 1}, 0.08 * size});
       }
     }
@@ -181,12 +181,12 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNo
   const bool key = notes.arrow_key && rest.height > 6 * line;
   Box foot = cut_bottom(rest, captions ? 1.9 * line : (scale_bar || key ? 1.7 * line : 0));
   if (scale_bar) {
-    Box place = cut_right(foot, 0.4 * foot.width);
-    layout.scale_bar = cut_bottom(place, 1.7 * line);
+    Box corner = cut_right(foot, 0.4 * foot.width);
+    layout.scale_bar = cut_bottom(corner, 1.7 * line);
   }
   if (key) {
-    Box place = cut_right(foot, 0.3 * foot.width);
-    layout.arrow_key = cut_bottom(place, 1.7 * line);
+    Box corner = cut_right(foot, 0.3 * foot.width);
+    layout.arrow_key = cut_bottom(corner, 1.7 * line);
   }
   if (captions) {
     layout.timeline = cut_bottom(foot, 0.9 * line);
@@ -224,14 +224,14 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
   // supported are the ends with a reaction, since ends may be free; in a flat grid without
   // reactions all ends at the boundary
   const std::set<int> ends(layout.edge_points.begin(), layout.edge_points.end());
-  std::set<int> held;
-  std::ranges::set_intersection(ends, supported, std::inserter(held, held.end()));
-  if (held.empty() && look.rings) held = ends;
+  std::set<int> constrained;
+  std::ranges::set_intersection(ends, supported, std::inserter(constrained, constrained.end()));
+  if (constrained.empty() && look.rings) constrained = ends;
   GhostRods springs{Eigen::Matrix3Xd(3, 0), {}, 0.3 * size, look.ring, -size};
   for (std::size_t k = 0; k < layout.sprung.size(); ++k) {
     const int node = layout.sprung[k];
     const auto at = std::ranges::find(layout.supports, node) - layout.supports.begin();
-    held.erase(node);
+    constrained.erase(node);
     if (at >= frame.reactions_N.cols()) continue;
     // the stretch of the spring is that at which its force is the reaction
     const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
@@ -241,7 +241,7 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
   }
   if (!springs.rods.empty()) drawing.ghosts.push_back(std::move(springs));
-  for (const int node : held)
+  for (const int node : constrained)
     drawing.marks.push_back({frame.nodes.col(node), size, look.ring, false});
   if (!look.clamped) return;
   GhostRods sleeves{frame.nodes, {}, size, look.ring, -size};
@@ -253,8 +253,8 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     }
   };
   for (const auto& rod : layout.rods) {
-    if (held.contains(rod.front())) add(rod.begin(), rod.end());
-    if (held.contains(rod.back())) add(rod.rbegin(), rod.rend());
+    if (constrained.contains(rod.front())) add(rod.begin(), rod.end());
+    if (constrained.contains(rod.back())) add(rod.rbegin(), rod.rend());
   }
   drawing.ghosts.push_back(std::move(sleeves));
 }
@@ -310,7 +310,7 @@ std::string event_caption(const record::Frame& frame) {
 
 void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
                    const ProgressAxis& axis, int at, double font_size) {
-  const int frames = int(axis.places.size());
+  const int frames = int(axis.positions.size());
   // the bar leaves room for all names of the complete run, so that its length does not change
   const double size = 0.8 * font_size, gap = 0.5 * size;
   const double apart = 6 * gap;  // distance of the names from the bar
@@ -331,8 +331,8 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
   canvas.text(first, {box.x, box.middle().y}, text);
   canvas.text(last, {bar.right() + gap, box.middle().y}, text);
   canvas.rectangle(bar, track);
-  canvas.rectangle({bar.x, bar.y, bar.width * axis.places[std::size_t(at)], bar.height}, done);
-  draw_marks(canvas, bar, marks, axis.places, at, font_size);
+  canvas.rectangle({bar.x, bar.y, bar.width * axis.positions[std::size_t(at)], bar.height}, done);
+  draw_marks(canvas, bar, marks, axis.positions, at, font_size);
   double x = bar.right() + after + apart;
   for (const Sign& sign : signs) {
     if (!reached(marks, sign.kind, at)) continue;
@@ -351,36 +351,36 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const std::vector<Colour>& cell_colours, const Appearance& look) {
   const double hair = std::max(0.6, box.width / 260), radius = std::max(0.7, box.width / 130);
   const Box inside = box.inset(radius + hair);
-  const PlanView place{inside.middle(),
-                       {extent.x_mm, extent.y_mm},
-                       std::min(inside.width, inside.height) / (2 * extent.half_mm)};
+  const PlanView plan{inside.middle(),
+                      {extent.x_mm, extent.y_mm},
+                      std::min(inside.width, inside.height) / (2 * extent.half_mm)};
   if (look.rings && original_boundary_shown(frame))
-    canvas.polyline(place.line(layout.original_boundary), {{0.6f, 0.6f, 0.62f, 1}, hair}, true);
+    canvas.polyline(plan.line(layout.original_boundary), {{0.6f, 0.6f, 0.62f, 1}, hair}, true);
   if (look.rings)
-    canvas.polyline(place.line(boundary_at(layout, frame.actuation)),
+    canvas.polyline(plan.line(boundary_at(layout, frame.actuation)),
                     {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
   for (std::size_t c = 0; c < std::min(cell_colours.size(), layout.cells.size()); ++c) {
     std::vector<Point> corners;
     for (int joint : layout.cells[c].joints)
-      corners.push_back(place(frame.nodes.col(layout.joints[std::size_t(joint)].node)));
+      corners.push_back(plan(frame.nodes.col(layout.joints[std::size_t(joint)].node)));
     canvas.polygon(corners, cell_colours[c]);
   }
   for (const std::vector<int>& rod : layout.rods) {
     // nodes nearer than a pixel and a half are left out, which saves time
     std::vector<Point> line;
     for (std::size_t k = 0; k < rod.size(); ++k) {
-      const Point p = place(frame.nodes.col(rod[k]));
+      const Point p = plan(frame.nodes.col(rod[k]));
       const bool end = k == 0 || k + 1 == rod.size();
       if (end || std::hypot(p.x - line.back().x, p.y - line.back().y) > 1.5) line.push_back(p);
     }
     canvas.polyline(line, {rod_ink, hair});
   }
   for (const record::Joint& joint : layout.joints)
-    if (look.joint_mm > 0) canvas.circle(place(frame.nodes.col(joint.node)), radius, look.joint);
+    if (look.joint_mm > 0) canvas.circle(plan(frame.nodes.col(joint.node)), radius, look.joint);
   for (const record::LoadedJoint& load : layout.loaded_joints) {
     if (!load_acts(load, layout, frame)) continue;
     const record::Joint& joint = layout.joints.at(std::size_t(load.joint));
-    canvas.circle(place(frame.nodes.col(joint.node)), 2.6 * radius, {0, 0, 0, 0},
+    canvas.circle(plan(frame.nodes.col(joint.node)), 2.6 * radius, {0, 0, 0, 0},
                   {load_ink, 1.2 * radius});
   }
 }

@@ -168,7 +168,7 @@ class SideBySideMovie {
       const ProgressAxis& axis = stage->progress();
       return stage->survey().marks.empty() && axis.name == first.name &&
              std::abs(axis.first - first.first) + std::abs(axis.last - first.last) < 0.05 &&
-             axis.places.size() == first.places.size();
+             axis.positions.size() == first.positions.size();
     });
   }
 
@@ -310,13 +310,13 @@ Result<void> write_side_by_side(const std::vector<NamedRun>& runs, const MovieSt
   if (runs.empty()) return invalid("there is no run to show");
   for (const NamedRun& one : runs) TRY_DO(check_showable(*one.run, style));
   TRY_DO(make_folder(folder));
-  const SideBySideMovie beside(runs, style);
+  const SideBySideMovie movie(runs, style);
   const auto draw = [&](int k) {
-    return beside.draw(k, renderer).map([](Image&& picture) {
+    return movie.draw(k, renderer).map([](Image&& picture) {
       return DrawnFrame{std::move(picture)};
     });
   };
-  return write_frames(beside.frames(), draw, folder, watch, on_frame);
+  return write_frames(movie.frames(), draw, folder, watch, on_frame);
 }
 
 }  // namespace gridshell::render

@@ -47,7 +47,7 @@ void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, Pa
   figure.pixels_per_mm = stages.front().pixels_per_mm();
   for (const Stage& stage : stages)
     figure.pixels_per_mm = std::min(figure.pixels_per_mm, stage.pixels_per_mm());
-  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, stages.front().run().length_scale_mm);
+  figure.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, stages.front().run().length_scale_mm);
 }
 
 /// A figure with one panel per run, whose drawing is changed by `edit`.

@@ -53,23 +53,22 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
     all.conservativeResize(2, all.cols() + flat.cols());
     all.rightCols(flat.cols()) = flat;
   }
-  PlanView place(box, all);
-  place.scale = std::min(place.scale, most);
+  PlanView plan(box, all);
+  plan.scale = std::min(plan.scale, most);
   if (runs.size() == 1) {
     const record::Layout& layout = runs.front().run->layout;
     for (const auto& rod : layout.rods)
-      canvas.line(place(layout.flat_nodes.col(rod.front())),
-                  place(layout.flat_nodes.col(rod.back())), {rod_ink, 0.7});
+      canvas.line(plan(layout.flat_nodes.col(rod.front())), plan(layout.flat_nodes.col(rod.back())),
+                  {rod_ink, 0.7});
   }
   for (std::size_t k = 0; k < runs.size(); ++k)
-    canvas.polyline(place.line(runs[k].run->layout.original_boundary),
+    canvas.polyline(plan.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
   // a single run also has its actuated boundary
   if (runs.size() == 1)
-    canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
-                    true);
+    canvas.polyline(plan.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}}, true);
   const Point left{box.x, box.bottom() + 9};
-  const Box length = draw_spacing(canvas, left, runs.front().run->layout, place.scale);
+  const Box length = draw_spacing(canvas, left, runs.front().run->layout, plan.scale);
   if (runs.size() == 1) {
     const Point at{length.right() + 10, left.y};
     const std::string text = "flat footprint; dashed: actuated boundary";
@@ -80,7 +79,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   // caps have their names at the planes that cut them, if these differ
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
-  return place.scale;
+  return plan.scale;
 }
 
 /// Scale (units per millimetre) at which a sphere of radius rho with the names of planes fills a
@@ -247,13 +246,13 @@ void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   const bool caps = all_caps(runs);
   const double half = caps ? box.width / 2 : box.width;
   // the boundaries need more room below, for the spacing
-  const Box beside{box.x + half, box.y, half, box.height - 8};
+  const Box right{box.x + half, box.y, half, box.height - 8};
   const double most =
-      caps ? scale_of_planes(beside, runs.front().run->layout.length_scale_mm) : INFINITY;
+      caps ? scale_of_planes(right, runs.front().run->layout.length_scale_mm) : INFINITY;
   // boundaries and planes have one scale
   const double scale =
       draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs, most);
-  if (caps) draw_planes(canvas, beside, runs, scale);
+  if (caps) draw_planes(canvas, right, runs, scale);
 }
 
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
@@ -280,10 +279,10 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
   Series close =
       mark_series("rods within 17° of parallel", {0.93f, 0.6f, 0.2f, 1}, Marker::circle, 1.8);
   for (const auto& p : narrow.colwise()) close.add(p.x(), p.y());
-  Series place = mark_series(
+  Series end_mark = mark_series(
       fmt::format("end of the net, *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z())),
       {0.75f, 0.1f, 0.15f, 1}, Marker::cross, 8);
-  place.add(end.x(), end.y());
+  end_mark.add(end.x(), end.y());
   Plot plot;
   plot.title = title;
   plot.x.label = "*x* (mm)";
@@ -291,7 +290,7 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
   plot.legend = LegendPosition::above;
   plot.series = {net};
   plot.add(std::move(close));
-  plot.add(std::move(place));
+  plot.add(std::move(end_mark));
   if (!lines.empty()) frame_about(lines, plot);
   return plot;
 }

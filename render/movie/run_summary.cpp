@@ -94,9 +94,9 @@ bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
   if (!load.at_times || frame.reactions_N.cols() != Eigen::Index(layout.supports.size()))
     return true;
   const int node = layout.joints.at(std::size_t(load.joint)).node;
-  const auto held = std::ranges::find(layout.supports, node);
-  return held == layout.supports.end() ||
-         !frame.reactions_N.col(held - layout.supports.begin()).isZero(0);
+  const auto support = std::ranges::find(layout.supports, node);
+  return support == layout.supports.end() ||
+         !frame.reactions_N.col(support - layout.supports.begin()).isZero(0);
 }
 
 std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame) {
@@ -238,11 +238,11 @@ ProgressAxis RunSummary::progress() const {
     ProgressAxis axis{name, values.front(), values.back(), {}};
     const double range = axis.last - axis.first;
     for (const double value : values) {
-      const double place = (value - axis.first) / range;
+      const double position = (value - axis.first) / range;
       // the comparison is also false for NaN
-      if (!(place >= (axis.places.empty() ? 0 : axis.places.back()) && place <= 1))
+      if (!(position >= (axis.positions.empty() ? 0 : axis.positions.back()) && position <= 1))
         return ProgressAxis{};
-      axis.places.push_back(place);
+      axis.positions.push_back(position);
     }
     return axis;
   };
@@ -251,10 +251,10 @@ ProgressAxis RunSummary::progress() const {
     axis = {"angle", 0, turn_deg, {}, "°"};
   } else if (frames > 1) {
     axis = along(depths_mm_, "*δ*");
-    if (axis.places.empty()) axis = along(radii_mm_, "*R*_{a}");
+    if (axis.positions.empty()) axis = along(radii_mm_, "*R*_{a}");
   }
-  while (int(axis.places.size()) < frames)
-    axis.places.push_back(double(axis.places.size()) / std::max(1, frames - 1));
+  while (int(axis.positions.size()) < frames)
+    axis.positions.push_back(double(axis.positions.size()) / std::max(1, frames - 1));
   return axis;
 }
 

@@ -101,10 +101,10 @@ struct RodSample {
 
 /// The axis of a run's timeline.
 struct ProgressAxis {
-  std::string name;            ///< of the quantity, with markup; empty: the number of the frame
-  double first = 0, last = 1;  ///< values at the ends
-  std::vector<double> places;  ///< position of each frame between the ends, 0 to 1
-  std::string unit = " mm";    ///< with the space before it
+  std::string name;               ///< of the quantity, with markup; empty: the number of the frame
+  double first = 0, last = 1;     ///< values at the ends
+  std::vector<double> positions;  ///< position of each frame between the ends, 0 to 1
+  std::string unit = " mm";       ///< with the space before it
 };
 
 /// Ranges, bounds and events of a run. Every frame is passed to take() once, in order; only the

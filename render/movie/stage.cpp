@@ -18,7 +18,7 @@ constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f,
 
 // the style with a camera from the side, so that a pushed joint moves in the picture's plane; of
 // the two sides the one nearer to the style's azimuth
-MovieStyle beside_the_push(MovieStyle style, const record::Layout& layout) {
+MovieStyle seen_across_push(MovieStyle style, const record::Layout& layout) {
   if (style.view != preset::View::push) return style;
   constexpr double elevation_deg = 18, least_slope = 0.05;
   style.elevation_deg = elevation_deg;
@@ -53,10 +53,11 @@ std::vector<std::vector<int>> thinned_rods(const record::Layout& layout) {
 // below all of the shell. (The plate is open, so that a shell may be a little below it.)
 double ground_of(const RunSummary& survey, const record::Layout& layout, const Appearance& look) {
   constexpr double most_dip = 0.15;  // of the length scale
-  const bool stands = layout.actuated_boundary.cols() > 0 &&
-                      survey.support_z_mm - survey.lowest_z_mm < most_dip * layout.length_scale_mm;
-  return stands ? survey.support_z_mm - 0.5 * look.ring_mm
-                : survey.lowest_z_mm - 0.75 * std::max(look.joint_mm, 3.0);
+  const bool on_supports =
+      layout.actuated_boundary.cols() > 0 &&
+      survey.support_z_mm - survey.lowest_z_mm < most_dip * layout.length_scale_mm;
+  return on_supports ? survey.support_z_mm - 0.5 * look.ring_mm
+                     : survey.lowest_z_mm - 0.75 * std::max(look.joint_mm, 3.0);
 }
 
 // the square around all points
@@ -173,7 +174,7 @@ Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& 
              const std::optional<ColourBar>& shared)
     : run_(layout),
       survey_(std::move(survey)),
-      style_(beside_the_push(style, layout)),
+      style_(seen_across_push(style, layout)),
       progress_(survey_.progress()),
       bar_(shared ? shared : colour_bar_of({&survey_}, style_)),
       layout_(lay_out_frame(style_, bar_ && style_.legends ? &*bar_ : nullptr,

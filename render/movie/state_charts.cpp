@@ -107,7 +107,7 @@ class PhasePlot {
   }
 
   Plot take() && {
-    add_places();
+    add_footprints();
     for (const double leg : {1.0, 0.0, -1.0}) add_line(leg);
     for (const ClassMark& mark : marks) {
       add_class(mark, false);
@@ -151,7 +151,7 @@ class PhasePlot {
   }
 
   /// Adds a dot at each footprint, around which its marks are arranged.
-  void add_places() {
+  void add_footprints() {
     Series dots = mark_series("", grey_ink, Marker::circle, 1.6);
     for (const PhasePoint& point : points_) dots.add(point.longest_leg, point.rods);
     plot_.series.push_back(std::move(dots));
@@ -238,13 +238,13 @@ Plot barrier_plot(const record::StateTables& states) {
       highest = std::max(highest, pass_of(one));
     }
   const double off = 0.015 * (highest - lowest);  // distance of names from bars and passes
-  std::map<int, double> place;
-  for (const auto& [state, level] : energy) place.emplace(state, double(place.size() + 1));
+  std::map<int, double> column;
+  for (const auto& [state, level] : energy) column.emplace(state, double(column.size() + 1));
   std::size_t colour = 0;
   for (const record::Barrier& one : states.barriers) {
     if (one.to == 0 || one.from == one.to) continue;
     Series curve = line_series("", series_colour(colour++));
-    const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
+    const double a = column.at(one.from), b = column.at(one.to), middle = 0.5 * (a + b);
     const double from = a + std::copysign(half_bar, b - a), to = b - std::copysign(half_bar, b - a);
     const double pass = pass_of(one);
     add_flank(curve, from, energy.at(one.from), middle, pass);
@@ -255,15 +255,15 @@ Plot barrier_plot(const record::StateTables& states) {
   }
   for (const auto& [state, level] : energy) {
     Series bar = line_series("", ink, 2.2);
-    for (const double half : {-half_bar, half_bar}) bar.add(place.at(state) + half, level);
+    for (const double half : {-half_bar, half_bar}) bar.add(column.at(state) + half, level);
     plot.series.push_back(std::move(bar));
-    plot.notes.push_back({place.at(state), level - off,
+    plot.notes.push_back({column.at(state), level - off,
                           fmt::format("*{}*", states.rows.at(std::size_t(state) - 1).name()),
                           AlignX::centre, AlignY::top});
   }
   plot.x = {.label = "states in the order of their number, class.number", .ticks = 0};
   plot.x.low = 0.5;
-  plot.x.high = double(place.size()) + 0.5;
+  plot.x.high = double(column.size()) + 0.5;
   if (lowest <= highest) {
     // room for the texts above passes and below states
     plot.y.low = lowest - 0.16 * (highest - lowest);
@@ -296,18 +296,18 @@ double state_map_scale(const Box& box, const record::Layout& layout) {
 void draw_state_map(Canvas& canvas, const Box& box, double units_per_mm,
                     const record::Layout& layout, const record::Frame& frame,
                     const record::StateRow& row) {
-  const PlanView place{box.middle(), {0, 0}, units_per_mm};
-  const double beyond = room * radius_of(layout);
+  const PlanView plan{box.middle(), {0, 0}, units_per_mm};
+  const double outer = room * radius_of(layout);
   for (const double degrees : mirrors_of(row.group)) {
     const double angle = degrees * M_PI / 180;
-    const Eigen::Vector3d end(beyond * std::cos(angle), beyond * std::sin(angle), 0);
-    canvas.line(place(-end), place(end), {mirror_ink, 0.8, {4, 2, 1, 2}});
+    const Eigen::Vector3d end(outer * std::cos(angle), outer * std::sin(angle), 0);
+    canvas.line(plan(-end), plan(end), {mirror_ink, 0.8, {4, 2, 1, 2}});
   }
-  canvas.polyline(place.line(layout.actuated_boundary), {ring_ink, 0.8}, true);
+  canvas.polyline(plan.line(layout.actuated_boundary), {ring_ink, 0.8}, true);
   const std::vector<int> inflections = inflections_of(row);
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
     const bool higher = r < inflections.size() && inflections[r] > 0;
-    canvas.polyline(place.line(frame.nodes(Eigen::all, layout.rods[r])),
+    canvas.polyline(plan.line(frame.nodes(Eigen::all, layout.rods[r])),
                     {higher ? higher_order_ink : first_order_ink, 0.6});
   }
   if (row.group == "C4") {

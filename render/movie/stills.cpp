@@ -141,7 +141,7 @@ Result<std::vector<std::filesystem::path>> write_stills(
   }
   const Stage stage(run.layout, std::move(survey), style, bar);
   PanelFigure figure = empty_figure(style, columns_of(style, stage.frames()));
-  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, run.layout.length_scale_mm);
+  figure.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, run.layout.length_scale_mm);
   figure.pixels_per_mm = stage.pixels_per_mm();
   figure.colour_bar = stage.colour_bar();
   figure.arrow = stage.arrow_key();

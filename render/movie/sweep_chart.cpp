@@ -35,7 +35,7 @@ constexpr Colour grey_ink{0.45f, 0.45f, 0.48f, 1};
 /// One run in the picture.
 struct SweepMark {
   double x = 0, y = 0;
-  std::size_t place = 0;  // index of its key on the scale
+  std::size_t index = 0;  // index of its key on the scale
   std::string limit;
   bool stable = true;
 };
@@ -51,14 +51,14 @@ Curve curve_of(const SweepTable& table, const SweepScale& scale, const SweepView
   Curve curve;
   for (const auto& row : table.rows) {
     if (row.keys.case_name != one) continue;
-    const std::size_t place = place_of(table, scale, row, 0);
-    const double key = scale.numbers[place];
+    const std::size_t index = index_on_scale(table, scale, row, 0);
+    const double key = scale.numbers[index];
     const double x = view.x.empty() ? key : number_of(row, view.x);
     const double y = number_of(row, view.figure);
     const auto* stable = row.result.figure("stable");
     const bool unstable = stable && record::number_of(*stable) == 0;
     if (std::isfinite(x) && std::isfinite(y))
-      curve.spots.push_back({x, y, place, limit_of(row), !unstable});
+      curve.spots.push_back({x, y, index, limit_of(row), !unstable});
     else if (std::isfinite(x) && row.result.outcome != record::PointOutcome::done)
       curve.lost.push_back(x);
   }
@@ -75,13 +75,13 @@ bool spans_decades(const std::vector<double>& values) {
 Series mean_of(const Curve& curve) {
   std::vector<std::size_t> order(curve.spots.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return curve.spots[k].place; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return curve.spots[k].index; });
   Series mean;
   for (std::size_t k = 0; k < order.size();) {
     double x = 0, y = 0;
     std::size_t n = 0;
-    for (const auto place = curve.spots[order[k]].place;
-         k < order.size() && curve.spots[order[k]].place == place; ++k, ++n) {
+    for (const auto index = curve.spots[order[k]].index;
+         k < order.size() && curve.spots[order[k]].index == index; ++k, ++n) {
       x += curve.spots[order[k]].x;
       y += curve.spots[order[k]].y;
     }
@@ -242,8 +242,8 @@ SweepScale scale_of(const SweepTable& table, std::size_t k) {
   return scale;
 }
 
-std::size_t place_of(const SweepTable& table, const SweepScale& scale, const SweepTable::Row& row,
-                     std::size_t k) {
+std::size_t index_on_scale(const SweepTable& table, const SweepScale& scale,
+                           const SweepTable::Row& row, std::size_t k) {
   std::string seed;
   const auto at = std::ranges::find(scale.texts, text_of(table, row, k, seed));
   return std::size_t(at - scale.texts.begin());

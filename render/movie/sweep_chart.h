@@ -28,8 +28,8 @@ struct SweepScale {
 SweepScale scale_of(const record::SweepTable& table, std::size_t k);
 
 /// Index of a row's value on the scale of axis `k`.
-std::size_t place_of(const record::SweepTable& table, const SweepScale& scale,
-                     const record::SweepTable::Row& row, std::size_t k);
+std::size_t index_on_scale(const record::SweepTable& table, const SweepScale& scale,
+                           const record::SweepTable::Row& row, std::size_t k);
 
 /// A row's figure as a number, NaN if it has none; the absolute value of largest_strain.
 double number_of(const record::SweepTable::Row& row, const std::string& figure);

@@ -41,7 +41,7 @@ Box about(Point middle, double half_width, double half_height) {
 
 /// A box of this size near `from`, inside the frame, that overlaps no other box; about `from`
 /// itself if there is none.
-Box free_place(Point from, const Box& size, const std::vector<Box>& taken, const Box& inside) {
+Box free_box(Point from, const Box& size, const std::vector<Box>& taken, const Box& inside) {
   constexpr int directions = 24;
   for (double away = 9; away < 120; away += 3)
     for (int k = 0; k < directions; ++k) {
@@ -79,7 +79,7 @@ class TransitionGraph {
   void draw(Canvas& canvas) {
     const Box box{margin, margin + head + legend_room, width - 2 * margin, plot_height};
     const PlotFrame frame = axes(canvas, box);
-    for (Node& node : nodes_) node.at = frame.place(node.row->height_mm, node.row->energy_mJ());
+    for (Node& node : nodes_) node.at = frame.point_at(node.row->height_mm, node.row->energy_mJ());
     draw_legend(canvas);
     for (const Transition& one : states_.transitions)
       if (one.to != 0 && one.to != one.from) draw_transition(canvas, one);
@@ -202,7 +202,7 @@ class TransitionGraph {
     for (const Node& node : nodes_) {
       if (!node.disturbed) continue;
       const std::string name = fmt::format("*{}*", node.row->name());
-      const Box box = free_place(node.at, canvas.measure(name, style), taken_, inside);
+      const Box box = free_box(node.at, canvas.measure(name, style), taken_, inside);
       const Point near{std::clamp(node.at.x, box.x, box.right()),
                        std::clamp(node.at.y, box.y, box.bottom())};
       const double fraction = node.radius() / std::max(node.radius(), distance(near, node.at));
@@ -251,14 +251,14 @@ class TransitionGraph {
     const double scale = 0.5 * thumb / reach;
     const double low = frame.nodes.row(2).minCoeff(),
                  span = std::max(1e-9, frame.nodes.row(2).maxCoeff() - low);
-    const PlanView place{middle, {0, 0}, scale};
+    const PlanView plan{middle, {0, 0}, scale};
     for (const auto& rod : run_.layout.rods)
       for (std::size_t n = 1; n < rod.size(); ++n) {
         const Eigen::Vector3d a = frame.nodes.col(rod[n - 1]), b = frame.nodes.col(rod[n]);
         const float pale = float(0.78 - 0.7 * ((a.z() + b.z()) / 2 - low) / span);
-        canvas.line(place(a), place(b), {{pale, pale, pale + 0.03f, 1}, 0.55});
+        canvas.line(plan(a), plan(b), {{pale, pale, pale + 0.03f, 1}, 0.55});
       }
-    canvas.polyline(place.line(ring), {ink, 0.6}, true);
+    canvas.polyline(plan.line(ring), {ink, 0.6}, true);
   }
 
   const record::StateTables& states_;

@@ -95,23 +95,23 @@ TEST_CASE("the manual page names all commands, options, presets and keys, and ro
 
 TEST_CASE("the bar counts evenly over phases by their expected time") {
   const std::vector<app::Phase> phases{{"simulating", 10}, {"drawing", 90}};
-  CHECK(app::standing(phases, 0, 0.0, 0).fraction == 0.0);
-  CHECK(app::standing(phases, 0, 0.5, 5).fraction == Approx(0.05));
-  CHECK(app::standing(phases, 1, 0.0, 0).fraction == Approx(0.10));
-  CHECK(app::standing(phases, 1, 0.5, 45).fraction == Approx(0.55));
-  CHECK(app::standing(phases, 1, 1.0, 90).fraction == Approx(1.0));
+  CHECK(app::progress_of(phases, 0, 0.0, 0).fraction == 0.0);
+  CHECK(app::progress_of(phases, 0, 0.5, 5).fraction == Approx(0.05));
+  CHECK(app::progress_of(phases, 1, 0.0, 0).fraction == Approx(0.10));
+  CHECK(app::progress_of(phases, 1, 0.5, 45).fraction == Approx(0.55));
+  CHECK(app::progress_of(phases, 1, 1.0, 90).fraction == Approx(1.0));
 }
 
 TEST_CASE("the time left follows how fast the work turns out") {
   const std::vector<app::Phase> phases{{"simulating", 10}, {"drawing", 90}};
   // as expected: 5 s of this phase and 90 s of the next
-  CHECK(app::standing(phases, 0, 0.5, 5).seconds_left == Approx(95));
+  CHECK(app::progress_of(phases, 0, 0.5, 5).seconds_left == Approx(95));
   // twice as slow
-  CHECK(app::standing(phases, 0, 0.5, 10).seconds_left == Approx(190));
-  CHECK(app::standing(phases, 1, 0.25, 20).seconds_left == Approx(60));
+  CHECK(app::progress_of(phases, 0, 0.5, 10).seconds_left == Approx(190));
+  CHECK(app::progress_of(phases, 1, 0.25, 20).seconds_left == Approx(60));
   // too early for an estimate
-  CHECK(std::isnan(app::standing(phases, 1, 0.01, 1).seconds_left));
-  CHECK(std::isnan(app::standing(phases, 1, 0.5, 0.1).seconds_left));
+  CHECK(std::isnan(app::progress_of(phases, 1, 0.01, 1).seconds_left));
+  CHECK(std::isnan(app::progress_of(phases, 1, 0.5, 0.1).seconds_left));
 }
 
 TEST_CASE("a phase that was not announced is one more of the last") {

@@ -81,7 +81,7 @@ void mix_holds(RandomDraw& draw, preset::NetworkData& file) {
     for (const int end : {0, 1}) {
       const double point = end == 0 ? file.rods[rod].front() : file.rods[rod].back();
       const int hold = draw.integer(0, 4);  // pinned, tangent, clamped, on a spring, any
-      if (hold < 3) file.holds.push_back({double(rod), double(end), double(hold)});
+      if (hold < 3) file.end_constraints.push_back({double(rod), double(end), double(hold)});
       if (hold != 3) continue;
       const double k = std::pow(10, draw.between(-2, 1));
       file.supports.push_back({point});

@@ -104,7 +104,7 @@ void blocks(RandomDraw& draw, Preset& p) {
 void push(RandomDraw& draw, Preset& p) {
   draw.once_in(2) ? circle(draw, p) : cap(draw, p);
   p.indentation.at =
-      draw.once_in(2) ? preset::IndentationPlace::highest : preset::IndentationPlace::pole;
+      draw.once_in(2) ? preset::IndentationPosition::highest : preset::IndentationPosition::pole;
   p.indentation.direction =
       draw.once_in(3) ? preset::Direction::outward : preset::Direction::inward;
   p.indentation.lateral = draw.once_in(3) ? preset::Lateral::held : preset::Lateral::free;

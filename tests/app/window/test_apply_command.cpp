@@ -17,7 +17,7 @@ TEST_CASE("a dragged joint resists before the rods lock, and goes back with the 
   CHECK(most > 5);
   CHECK(most < 40);
   CHECK_THAT(shell.view().message, Catch::StartsWith("the joint resists"));
-  CHECK(shell.view().held.at(0).force_N.norm() > 0);
+  CHECK(shell.view().constrained.at(0).force_N.norm() > 0);
   // it is free to go back, and the drag is one step
   CHECK(pull(3) == Approx(3).margin(1e-3));
   CHECK(shell.view().message.empty());

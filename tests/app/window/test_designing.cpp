@@ -31,7 +31,7 @@ TEST_CASE("a shell is designed step by step, kept, put back and done again to th
   EditedShell shell(small_cap());
   const ShellView before = shell.view();
   std::vector<ShellView> seen;
-  shell.session.tell([&](const ShellView& view) { seen.push_back(view); });
+  shell.session.set_listener([&](const ShellView& view) { seen.push_back(view); });
   shell.act(design_of({preset::Vary::pins}, 6));
   shell.refine();
   const ShellView after = shell.view();
@@ -79,7 +79,7 @@ TEST_CASE("a design that is stopped leaves the step in the window that was seen 
   Watch watch;
   ShellView last;
   int seen = 0;
-  shell.session.tell([&](const ShellView& view) {
+  shell.session.set_listener([&](const ShellView& view) {
     last = view;
     if (++seen == 2) watch.cancel();
   });

@@ -119,7 +119,7 @@ TEST_CASE("a push that begins with a long path reports the equilibria on it, and
   }
   CHECK(shell.view().steps.size() == 1);
   CHECK(shell.view().undo_steps == 1);
-  CHECK(shell.view().held.at(0).moved_mm.norm() == Approx(6));
+  CHECK(shell.view().constrained.at(0).moved_mm.norm() == Approx(6));
   // a short push in the same drag has no path to report
   push(9, 1);
   CHECK(shell.view().push_path.empty());
@@ -142,7 +142,7 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
   act(Move{0.8});
   const auto stands = [&](const ShellView& then) {
     CHECK(shell.nodes() == then.frame.nodes);
-    CHECK(shell.view().held.size() == then.held.size());
+    CHECK(shell.view().constrained.size() == then.constrained.size());
     CHECK(shell.view().steps.size() == then.steps.size());
     CHECK(shell.view().certificate.residual_N == then.certificate.residual_N);
   };
@@ -223,9 +223,9 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   const EditedShell again(preset);
   CHECK((again.view().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(again.view().steps.size() == 6);
-  REQUIRE(again.view().held.size() == 1);
+  REQUIRE(again.view().constrained.size() == 1);
   // its constraint was set on the coarsest mesh, at most 0.2 mm off
-  CHECK((again.view().held[0].moved_mm - shell.view().held[0].moved_mm).norm() < 0.2);
+  CHECK((again.view().constrained[0].moved_mm - shell.view().constrained[0].moved_mm).norm() < 0.2);
   shell.act(Undo{});
   CHECK(shell.view().steps.size() == 5);
 }

@@ -62,6 +62,6 @@ TEST_CASE("a drag ends if its joint is gone") {
   picker.release(at.x() + 40, at.y() + 40);
   show(viewer);
   CHECK(viewer.shell->error.empty());
-  CHECK(viewer.shell->held.empty());
+  CHECK(viewer.shell->constrained.empty());
   CHECK(viewer.shell->equilibria == before);
 }

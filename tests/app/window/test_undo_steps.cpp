@@ -42,14 +42,14 @@ TEST_CASE("an exception on the path is an error, and the shell is as before the 
   const Eigen::Vector3d normal = shell.view().normals.col(joint), from = shell.node(joint);
   bool throws = true;
   // a long displacement that is typed shows its equilibria as they are computed
-  shell.session.tell([&](const ShellView&) {
+  shell.session.set_listener([&](const ShellView&) {
     if (throws) throw std::bad_alloc();
   });
   shell.session.execute({Push{joint, from - 6 * normal, normal}, 1, true}, unwatched);
   CHECK(shell.view().error == "memory ran out");
   CHECK(difference(shell, before) == 0);
   CHECK(shell.view().steps.empty());
-  CHECK(shell.view().held.empty());
+  CHECK(shell.view().constrained.empty());
   CHECK(shell.view().undo_steps == before.undo_steps);
   CHECK(shell.view().redo_steps == 1);
   throws = false;

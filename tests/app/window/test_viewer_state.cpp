@@ -315,7 +315,7 @@ TEST_CASE("ranges of several paths that meet are one, separate ones or of other 
                     {0.3, 0.5, 7, true, "not stable"}});
   REQUIRE(marks.size() == 3);
   CHECK((marks[0].from == 0.1 && marks[0].to == 0.4));
-  CHECK(text_of_place(marks[0], [](double at) { return 100 * at; }) == "40 to 10");
+  CHECK(text_of_range(marks[0], [](double at) { return 100 * at; }) == "40 to 10");
   // a path back is no other interval
   add_marks(marks, marks_of(path_of({{0.7, 1}, {0.65, 1}}), {}, -1, [](double t) { return t; }));
   CHECK(marks.size() == 3);

@@ -50,7 +50,7 @@ Eigen::VectorXd some_change(Eigen::Index count) {
 template <class Look>
 void both_sides(DesignShell& shell, const DesignVariables& variables, const Eigen::VectorXd& q,
                 const Eigen::VectorXd& step, const Look& look) {
-  const DesignShell::ShellPosition saved = shell.stand();
+  const DesignShell::ShellPosition saved = shell.position();
   for (const int side : {0, 1}) {
     REQUIRE(shell.move(variables.ends_at(q + (side == 0 ? -1.0 : 1.0) * step), 5).has_value());
     look(side);

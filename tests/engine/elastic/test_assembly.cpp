@@ -47,8 +47,8 @@ Model sample_model(double hinge = 3.5) {
   add_joint_link(model, {1, 2, 2, 9}, 0.8);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
   // pressures on a triangle and on a plane curve
-  model.loads.push_back({.node = 1, .pressure = 0.05, .beside = {6, 3}});
-  model.loads.push_back({.node = 7, .anchor = {0, 0, 3}, .pressure = 0.3, .beside = {3, -1}});
+  model.loads.push_back({.node = 1, .pressure = 0.05, .corners = {6, 3}});
+  model.loads.push_back({.node = 7, .anchor = {0, 0, 3}, .pressure = 0.3, .corners = {3, -1}});
   model.ground.push_back({6, {0, 0, 0}, {2, 3, 4}, {1, -1, 0.5}});
   // edges 4 of `a` and 6 of `b`, so thick that they press
   model.contact = {

@@ -98,7 +98,7 @@ TEST_CASE("three springs prevent rigid motions alone, in the plane and in space"
         if (spring[std::size_t(axis) + 1] == 0) continue;
         REQUIRE(row < 6);
         const Eigen::Vector3d e = Eigen::Vector3d::Unit(axis),
-                              p = place_of(network, int(spring[0])) / 50;
+                              p = position_of(network, int(spring[0])) / 50;
         held.row(row++) << e.transpose(), p.cross(e).transpose();
       }
     CHECK(row == 6);

@@ -27,8 +27,8 @@ Outline outline(const std::string& text, const std::string& name,
   CHECK(network_error(data).empty());
   Outline found;
   for (std::size_t k = 0; k + 1 < data.rods[0].size(); ++k) {
-    const Eigen::Vector2d a = place_of(data, data.rods[0][k]).head<2>(),
-                          b = place_of(data, data.rods[0][k + 1]).head<2>();
+    const Eigen::Vector2d a = position_of(data, data.rods[0][k]).head<2>(),
+                          b = position_of(data, data.rods[0][k + 1]).head<2>();
     found.low = found.low.cwiseMin(a), found.high = found.high.cwiseMax(a);
     found.area += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }

@@ -30,7 +30,7 @@ struct Fitted {
     return {[s = smooth](const Eigen::Vector3d& p) { return s->at(p); }, d};
   }
   /// Upright at (x, y), the u-axis along x.
-  NetPlace place(double x, double y) const {
+  NetPose place(double x, double y) const {
     const Surface on = surface();
     const Eigen::Vector3d apex = value_of(on.nearest({x, y, highest_at(*mesh, x, y).value()}));
     Eigen::Vector3d up = on.gradient(apex).normalized();

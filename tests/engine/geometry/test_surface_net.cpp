@@ -18,7 +18,7 @@ Surface surface_of(const std::string& text) {
   return {[F](const Eigen::Vector3d& p) { return F.at(p); }, d};
 }
 
-NetPlace on_top(const Eigen::Vector3d& apex, double cut_mm, double turned = 0) {
+NetPose on_top(const Eigen::Vector3d& apex, double cut_mm, double turned = 0) {
   return {apex, Eigen::Vector3d(std::cos(turned), std::sin(turned), 0), Eigen::Vector3d::UnitZ(),
           [cut_mm](const Eigen::Vector3d& p) { return cut_mm - p.z(); }};
 }
@@ -57,8 +57,8 @@ double grid_off_sphere(double chord) {
   return largest;
 }
 
-std::string refused(const std::string& text, const NetPlace& place) {
-  return refusal(SurfaceNet::make(surface_of(text), place, d / 8));
+std::string refused(const std::string& text, const NetPose& pose) {
+  return refusal(SurfaceNet::make(surface_of(text), pose, d / 8));
 }
 
 }  // namespace

@@ -298,7 +298,7 @@ TEST_CASE("the field table is sound") {
     CHECK_FALSE(field.meaning.empty());
     CHECK(field.meaning.back() != '.');
     Preset preset = defaults;
-    if (const auto* real = field.as<double>(preset)) CHECK(field.range.holds(*real));
+    if (const auto* real = field.as<double>(preset)) CHECK(field.range.contains(*real));
     // units are in the key
     if (field.unit == "mm") CHECK_THAT(field.key, Catch::EndsWith("_mm"));
     if (field.unit == "deg") CHECK_THAT(field.key, Catch::EndsWith("_deg"));

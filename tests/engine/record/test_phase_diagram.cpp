@@ -65,8 +65,8 @@ TEST_CASE("a diagram shows by the shortest leg where domes are alone and where m
   REQUIRE(diagram.size() == 5);
   CHECK(diagram[2].rods == 12);
   CHECK(diagram[2].longest_leg == 0.8);
-  CHECK(diagram[2].beyond_paper() == 2);
-  CHECK(diagram[3].beyond_paper() == 1);
+  CHECK(diagram[2].not_in_paper() == 2);
+  CHECK(diagram[3].not_in_paper() == 1);
   CHECK_FALSE(diagram[4].found);
   const auto regions = regions_of(diagram);
   REQUIRE(regions.size() == 4);

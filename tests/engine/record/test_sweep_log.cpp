@@ -179,7 +179,7 @@ TEST_CASE("a power law of a table is found with its exponents, where all is abov
   const auto rough = value_of(power_law(table, "", "rough"));
   CHECK(std::abs(rough.keys[0].exponent - 1) < 2 * rough.keys[0].error);
   CHECK(rough.scatter == Approx(std::log(1.1)).epsilon(0.1));
-  CHECK(exact->holds());
+  CHECK(exact->is_confirmed());
   CHECK(!power_law(table, "", "low"));
   // no law is fitted over a range so small that anything is nearly a line in it
   for (SweepTable::Row& row : table.rows)
@@ -207,9 +207,9 @@ TEST_CASE("a plateau that bends at its end has no exponent, nor count shells thr
   }
   const auto plateau = value_of(power_law(table, "", "plateau"));
   CAPTURE(plateau.scatter, plateau.same_side);
-  CHECK_FALSE(plateau.holds());
-  CHECK(value_of(power_law(table, "", "law")).holds());
-  CHECK(value_of(power_law(table, "", "noisy")).holds());
+  CHECK_FALSE(plateau.is_confirmed());
+  CHECK(value_of(power_law(table, "", "law")).is_confirmed());
+  CHECK(value_of(power_law(table, "", "noisy")).is_confirmed());
   // points whose shells run through themselves change nothing
   const std::size_t points = plateau.law.size();
   PointResult overlaps;

@@ -23,7 +23,8 @@ inline preset::NetworkData mixed_network() {
     const auto& from = file.points[std::size_t(point)];
     file.supports.push_back({double(point), 0.99 * from[0], 0.99 * from[1], from[2]});
   }
-  file.holds = {{0, 0, 2}, {0, 1, 1}, {1, 1, 1}, {2, 0, 2}, {3, 0, 0}, {5, 0, 2}, {5, 1, 2}};
+  file.end_constraints = {{0, 0, 2}, {0, 1, 1}, {1, 1, 1}, {2, 0, 2},
+                          {3, 0, 0}, {5, 0, 2}, {5, 1, 2}};
   file.springs = {{1, 2, 2, 2}, {14, 3, 3, 3}};
   file.joint_laws = {{6, 3, -1}, {12, -1, -1, 0.4}, {18, 0, 5}, {8, 0, -1, -0.3}, {7, 0, 0, 0.5}};
   return file;
@@ -62,7 +63,7 @@ inline std::vector<preset::NetworkData> same_otherwise(const preset::NetworkData
   // the rod that was listed later lies above
   for (auto& row : other.joint_laws)
     if (row.size() > 3) row[3] *= -1;
-  for (auto& row : other.holds) row = {5 - row[0], 1 - row[1], row[2]};
+  for (auto& row : other.end_constraints) row = {5 - row[0], 1 - row[1], row[2]};
   return {moved(file, turn_about(radian, {1, 2, -0.5})),
           moved(file, Eigen::Matrix3d::Identity(), {13, -400, 77}),
           moved(file, Eigen::Vector3d(-1, 1, 1).asDiagonal().toDenseMatrix()), other};

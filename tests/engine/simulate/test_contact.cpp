@@ -78,7 +78,7 @@ TEST_CASE("a push stops before contact too, and one that starts in contact does 
   auto preset = crowded(54);
   preset.limits.contact = preset::OnContact::stop;
   preset.limits.table = true;
-  preset.indentation.at = preset::IndentationPlace::highest;
+  preset.indentation.at = preset::IndentationPosition::highest;
   preset.indentation.depth_mm = 40;
   const auto pushed = run(preset);
   INFO(pushed.summary.limit_reason);
@@ -92,7 +92,7 @@ TEST_CASE("a push stops before contact too, and one that starts in contact does 
 TEST_CASE("a contact inside the load step in which the equilibrium is lost is found") {
   auto preset = with_two_mirrors();
   preset.limits.contact = preset::OnContact::stop;
-  preset.indentation.at = preset::IndentationPlace::highest;
+  preset.indentation.at = preset::IndentationPosition::highest;
   std::vector<double> depths;
   // steps end at 33.6, before the limit point at 33.64, and at 32.5 and 35
   for (const double depth_mm : {36.0, 40.0}) {

@@ -28,7 +28,7 @@ preset::NetworkData bracket(double first_piece) {
                  {200, 100, 0}, {200, 200, 0},       {200, 210, 0}};
   file.rods = {{0, 1, 2, 3, 4, 5}};
   file.own = {{0, "as_drawn", 1}};
-  file.holds = {{0, 0, double(preset::EndKind::clamped)}};
+  file.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
   file.free = {5};
   return file;
 }
@@ -117,7 +117,7 @@ TEST_CASE("a square frame of one rod and a hanging helix converge at second orde
   helix.rods.resize(1);
   for (int k = 0; k <= 48; ++k) helix.rods[0].push_back(k);
   helix.own = {{0, "as_drawn", 1}};
-  helix.holds = {{0, 0, double(preset::EndKind::clamped)}};
+  helix.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
   helix.free = {48};
   for (const bool hanging : {false, true}) {
     const auto pulled = [&](int edges) {

@@ -379,7 +379,7 @@ TEST_CASE("stress of a fibre: axial force over area, and E r times the curvature
 TEST_CASE("a shell bent further than is allowed is not pushed") {
   preset::Preset p = crossed_rods(0.25);
   p.limits.max_bending_strain = 0.5 * ExactRod(0.24165275).strain;
-  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.at = preset::IndentationPosition::highest;
   p.indentation.depth_mm = 5;
   CHECK_THAT(refused_run(p, Fault::no_equilibrium), Catch::Contains("[limits] max_bending_strain"));
 }

@@ -176,7 +176,7 @@ TEST_CASE("unloading follows the path back, after a snap on another branch", "[s
 
   preset::Preset fig1;
   fig1.imperfection.size = 0;  // the state with two mirrors
-  fig1.indentation.at = preset::IndentationPlace::highest;
+  fig1.indentation.at = preset::IndentationPosition::highest;
   fig1.indentation.depth = 0.5;
   fig1.indentation.unload = true;
   fig1.movie.frames = 21;
@@ -204,7 +204,7 @@ TEST_CASE("a figure of a push has the load steps of its path, so that a snap is 
           "[standard]") {
   preset::Preset fig1;
   fig1.imperfection.size = 0;
-  fig1.indentation.at = preset::IndentationPlace::highest;
+  fig1.indentation.at = preset::IndentationPosition::highest;
   fig1.indentation.depth = 0.3;
   const auto drawn = run_stills(fig1);
   const auto& frames = drawn.trajectory.frames;
@@ -223,7 +223,7 @@ TEST_CASE("a figure of a push has the load steps of its path, so that a snap is 
 TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
   preset::Preset p;
   p.imperfection.size = 0;  // the state with two mirrors
-  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.at = preset::IndentationPosition::highest;
   p.indentation.depth_mm = 150;
   p.movie.frames = 12;
   const auto [trajectory, summary] = run(p);

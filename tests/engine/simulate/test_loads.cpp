@@ -269,7 +269,7 @@ TEST_CASE("a load on a free end of a network bends it as a cantilever") {
   file.points = {{0, 0, 0}, {L / 2, 0, 0}, {L, 0, 0}};
   file.rods = {{0, 1, 2}};
   file.free = {2};
-  file.holds = {{0, 0, 2}};
+  file.end_constraints = {{0, 0, 2}};
   preset::Preset p = network(file, 32);
   p.rod.shear_GPa = 31;
   p.loads.points = {{2, 0, 0, 0, -1e-6}};

@@ -153,11 +153,11 @@ TEST_CASE("on a mesh that is requested the companion's doubt is said and nothing
 
 TEST_CASE("who watches a path sees where it is and which mesh is followed") {
   const Watch watch;
-  CHECK(watch.place().edges == 0);
+  CHECK(watch.position().edges == 0);
   const preset::Preset p = circle(6, 66, 60, 2);
   const auto path = value_of(follow_actuation(shared_scene(p), {{4, 8}, false}, false, 1, watch));
-  CHECK(watch.place().edges == 8);
-  CHECK(watch.place().t == path.segments.back().end());
+  CHECK(watch.position().edges == 8);
+  CHECK(watch.position().t == path.segments.back().end());
 }
 
 TEST_CASE("where the lowest stiffness nearly vanishes a finer mesh decides whether it does",

@@ -241,7 +241,7 @@ TEST_CASE("a push that snaps is followed in time to the next equilibrium", "[sta
   p.imperfection.size = 0;  // the state with two mirrors
   p.rod.density_kg_m3 = 6450;
   p.accuracy.edges_per_segment = 4;
-  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.at = preset::IndentationPosition::highest;
   p.indentation.depth_mm = 36;
   p.dynamics.snap = true;
   p.movie.frames = 10;

@@ -20,7 +20,7 @@ struct Cross {
       if (end_kind == free_end)
         file.free.push_back(end);
       else
-        file.holds.push_back({double(end / 2), double(end % 2), double(end_kind)});
+        file.end_constraints.push_back({double(end / 2), double(end % 2), double(end_kind)});
     }
     preset::Preset p = network(file, edges);
     p.rod.diameter_mm = 2, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
@@ -75,7 +75,7 @@ TEST_CASE("a constraint for all ends is of those without one in the file") {
   preset::Preset p = Cross{{clamped, pinned, clamped, pinned}}.preset(8);
   const double by_file = sunk(p);
   p.ends.kind = preset::EndKind::clamped;
-  p.footprint.file.holds = {{0, 1, 0}, {1, 1, 0}};
+  p.footprint.file.end_constraints = {{0, 1, 0}, {1, 1, 0}};
   CHECK(sunk(p) == Approx(by_file).epsilon(1e-10));
 }
 
@@ -100,7 +100,9 @@ TEST_CASE("constraints of ends that have no support of their own are refused by 
     change(file);
     CHECK_THAT(refusal(scene_of(network(file, 4))), Catch::Contains(reason));
   };
-  reported("rods[1]: its begin is on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
+  reported("rods[1]: its begin is on a spring", [](auto& file) {
+    file.end_constraints[2] = {1, 0, 2};
+  });
   reported("rods[3]: its begin is free", [](auto& file) {
     std::erase_if(file.supports, [](const auto& row) { return row[0] == 2; });
     file.free = {2};
@@ -108,19 +110,19 @@ TEST_CASE("constraints of ends that have no support of their own are refused by 
   reported("rods[6]: its end is joined there", [](auto& file) {
     file.points.push_back({0, -80, 0});
     file.rods.push_back({25, 12});
-    file.holds.push_back({6, 1, 1});
+    file.end_constraints.push_back({6, 1, 1});
   });
   // one clamped end fixes a piece, one with free rotation does not
   preset::NetworkData cantilever;
   cantilever.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}, {50, 30, 0}};
   cantilever.rods = {{0, 1, 2}, {1, 3}};
   cantilever.free = {2, 3};
-  cantilever.holds = {{0, 0, 2}};
+  cantilever.end_constraints = {{0, 0, 2}};
   cantilever.joint_laws = {{1, -1, -1}};
   preset::Preset p = network(cantilever, 4);
   p.rod.shear_GPa = 31;
   CHECK(value_of(scene_of(p)).length_scale_mm == Approx(std::hypot(100, 30) / 2));
-  p.footprint.file.holds = {{0, 0, 1}};
+  p.footprint.file.end_constraints = {{0, 0, 1}};
   CHECK_THAT(refusal(scene_of(p)), Catch::Contains("would turn freely"));
 }
 

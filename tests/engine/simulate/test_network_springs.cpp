@@ -153,7 +153,7 @@ TEST_CASE("the cantilever of a public code agrees with the elastica, and nearly 
   file.points = {{0, 0, 0}, {1000, 0, 0}, {1010, 0, 0}};
   file.rods = {{0, 1, 2}};
   file.free = {2};
-  file.holds = {{0, 0, double(preset::EndKind::clamped)}};
+  file.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
   alone.loads.points = {{1, 0, 0, 0, 5}};
   const auto one = run_stills(alone);
   CHECK(one.summary.stable);

@@ -150,7 +150,7 @@ TEST_CASE("frames change nothing: the same events, the same end, of an actuation
           "[standard]") {
   const auto pushed = [](int frames) {
     preset::Preset p = fig1(frames);
-    p.indentation.at = preset::IndentationPlace::highest;
+    p.indentation.at = preset::IndentationPosition::highest;
     p.indentation.depth_mm = 36;
     return p;
   };

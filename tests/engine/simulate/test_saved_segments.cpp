@@ -45,7 +45,7 @@ Run run_with(const fs::path& folder, double stop_at = 2) {
   std::atomic<bool> over = false;
   std::thread stopper([&] {
     // on the second mesh
-    while (!over && !(watch.place().edges == 8 && watch.place().t > stop_at))
+    while (!over && !(watch.position().edges == 8 && watch.position().t > stop_at))
       std::this_thread::yield();
     if (!over) watch.cancel();
   });

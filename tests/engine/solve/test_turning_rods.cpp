@@ -68,8 +68,8 @@ TEST_CASE("a rod alone that is pinned, clamped or both is the elastica") {
   for (const double ratio : {0.9, 0.7}) {
     for (const int clamped : {0, 1, 2}) {
       preset::Preset p = rod({0, L / 2, L}, ratio * L);
-      if (clamped > 0) p.footprint.file.holds.push_back({0, 0, 2});
-      if (clamped > 1) p.footprint.file.holds.push_back({0, 1, 2});
+      if (clamped > 0) p.footprint.file.end_constraints.push_back({0, 0, 2});
+      if (clamped > 1) p.footprint.file.end_constraints.push_back({0, 1, 2});
       CAPTURE(ratio, clamped);
       const auto outcome = run_to_end(p);
       Eigen::Vector2d exact = middle_of_clamped(ratio * L);
@@ -123,7 +123,7 @@ TEST_CASE("rods turn that are fixed on one line, on it as long as the boundary m
     return turning_rods(scene->footprint, scene->rods, scene->motion, scene->solved_model()).size();
   };
   preset::Preset p = rod({0, 70, L}, 0.9 * L);
-  p.footprint.file.holds = {{0, 0, 2}};
+  p.footprint.file.end_constraints = {{0, 0, 2}};
   CHECK(turning(p) == 1);
   p.footprint.file.supports.push_back({1});
   CHECK(turning(p) == 1);

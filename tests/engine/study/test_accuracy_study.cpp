@@ -69,7 +69,7 @@ TEST_CASE("every method reaches the same state of its mesh, the error falls with
   // softer springs open the joints further
   CHECK(std::abs(find(study, "springs 1 N/mm", 4)->error - find(study, "bend", 4)->error) >
         10 * std::abs(find(study, "springs 100 N/mm", 4)->error - find(study, "bend", 4)->error));
-  for (const auto& at : study.standings) CHECK(at.error < at.tolerance);
+  for (const auto& at : study.outcomes) CHECK(at.error < at.tolerance);
 }
 
 TEST_CASE("a run that exceeds its time is stopped and reported as too slow") {

@@ -68,7 +68,7 @@ TEST_CASE("modes: masses and stiffness set the time, shapes and states stay") {
 
 TEST_CASE("modes: a joint that is pushed is fixed along the push, and free across it") {
   preset::Preset p = massive();
-  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.at = preset::IndentationPosition::highest;
   p.indentation.depth_mm = 2;
   const Vibrations pushed = vibrations(p);
   const record::Layout& layout = pushed.state.layout;

@@ -173,13 +173,13 @@ TEST_CASE("tops that all lie further out along the normals give the offset") {
       how.missing = 0.1;
       const MadeScan made = make_scan(*form, how);
       const auto scan = value_of(laid(made, *form));
-      double reported = JointCylinder{}.height_mm + beyond_height(scan, *form);
+      double reported = JointCylinder{}.height_mm + excess_height(scan, *form);
       CAPTURE(height, reported);
       CHECK(reported == Approx(height).margin(0.15));
     }
   // with the known height nothing remains
   const auto known = value_of(laid(make_scan(hemisphere(), {}), hemisphere()));
-  CHECK(std::abs(beyond_height(known, hemisphere())) < 0.05);
+  CHECK(std::abs(excess_height(known, hemisphere())) < 0.05);
 }
 
 TEST_CASE("separate discs are clusters, each with its middle, whatever part of it is seen more") {

@@ -106,14 +106,15 @@ TEST_CASE("values are where the axis says") {
   const Plot plot = errors();
   laid_out(plot, [&](Canvas&, const PlotFrame& frame) {
     // on a logarithmic axis equal ratios take equal room
-    const double x1 = frame.x.place(0.01), x2 = frame.x.place(0.1), x3 = frame.x.place(1);
+    const double x1 = frame.x.coordinate(0.01), x2 = frame.x.coordinate(0.1),
+                 x3 = frame.x.coordinate(1);
     CHECK(x2 - x1 == Approx(x3 - x2));
-    CHECK(frame.y.place(0.01) > frame.y.place(0.1));
-    CHECK(std::isnan(frame.x.place(0)));
+    CHECK(frame.y.coordinate(0.01) > frame.y.coordinate(0.1));
+    CHECK(std::isnan(frame.x.coordinate(0)));
     for (const Series& s : plot.series)
       for (std::size_t k = 0; k < s.x.size(); ++k) {
-        CHECK(frame.inside.x <= frame.x.place(s.x[k]));
-        CHECK(frame.x.place(s.x[k]) <= frame.inside.right());
+        CHECK(frame.inside.x <= frame.x.coordinate(s.x[k]));
+        CHECK(frame.x.coordinate(s.x[k]) <= frame.inside.right());
       }
   });
 }
@@ -125,8 +126,8 @@ TEST_CASE("a given range is kept") {
   laid_out(plot, [&](Canvas&, const PlotFrame& frame) {
     CHECK(frame.x.low == 90);
     CHECK(frame.x.high == 130);
-    CHECK(frame.x.place(90) == Approx(frame.inside.x));
-    CHECK(frame.x.place(130) == Approx(frame.inside.right()));
+    CHECK(frame.x.coordinate(90) == Approx(frame.inside.x));
+    CHECK(frame.x.coordinate(130) == Approx(frame.inside.right()));
   });
 }
 

@@ -81,8 +81,8 @@ TEST_CASE("the range of the change of K contains 0, and a range of the style rep
   const auto given = bar({of_K(0.5, 0.45)}, style);
   CHECK(given->scale.low == -0.01);
   CHECK(given->scale.high == 0.03);
-  CHECK(given->beyond_low);
-  CHECK_FALSE(given->beyond_high);
+  CHECK(given->below_scale);
+  CHECK_FALSE(given->above_scale);
   style.look.cells = false;
   CHECK_FALSE(bar({of_K(0.5, 0.45)}, style));
 }
@@ -103,7 +103,7 @@ TEST_CASE("axial forces diverge about zero over all runs, of one sign too") {
   CHECK(pressed->scale.low <= -0.2);
   CHECK(pressed->scale.high == -pressed->scale.low);
   // a few rods bear more than the scale contains
-  CHECK(bar({of_rods(0.2, -3)}, by(ColourBy::axial_force))->beyond_low);
+  CHECK(bar({of_rods(0.2, -3)}, by(ColourBy::axial_force))->below_scale);
 }
 
 TEST_CASE("bending energy goes up from zero, and the style's range and map go before") {
@@ -118,7 +118,7 @@ TEST_CASE("bending energy goes up from zero, and the style's range and map go be
   const auto given = bar({of_rods(0, 0, 1.5)}, style);
   CHECK(given->scale.high == 1);
   CHECK(given->scale.map == grey);
-  CHECK(given->beyond_high);
+  CHECK(given->above_scale);
   // without any, as in the flat
   CHECK(bar({of_rods(0, 0, 0)}, by(ColourBy::energy))->scale.map == sequential);
 }
@@ -130,8 +130,8 @@ TEST_CASE("the deviation's scale is that of the shell at the end of its boundary
   const auto near = value_of(bar({run}, by(ColourBy::deviation)));
   CHECK(near.scale.low == 0);
   CHECK(near.scale.high == Approx(0.01));
-  CHECK(near.beyond_high);
-  CHECK_FALSE(near.beyond_low);
+  CHECK(near.above_scale);
+  CHECK_FALSE(near.below_scale);
   // there is no deviation without a net
   CHECK_FALSE(bar({synthetic::dome(3, 1)}, by(ColourBy::deviation)));
 }

@@ -148,24 +148,24 @@ TEST_CASE(
   CHECK(radius.name == "*R*_{a}");
   CHECK(radius.first == Approx(126));
   CHECK(radius.last == Approx(94.5));
-  CHECK(radius.places[2] == Approx((126 - run.frames[2].boundary_radius_mm) / (126 - 94.5)));
+  CHECK(radius.positions[2] == Approx((126 - run.frames[2].boundary_radius_mm) / (126 - 94.5)));
   for (int k = 0; k < 5; ++k) {
     run.frames.edit()[std::size_t(k)].depth_mm = k * k;
     run.frames.edit()[std::size_t(k)].boundary_radius_mm = 94.5;
   }
   const ProgressAxis depth = summarise_run(run).progress();
   CHECK(depth.name == "*δ*");
-  CHECK(depth.places[2] == Approx(0.25));
+  CHECK(depth.positions[2] == Approx(0.25));
   run.frames.edit()[4].depth_mm = 1;  // released again
   const ProgressAxis frames = summarise_run(run).progress();
   CHECK(frames.name.empty());
-  CHECK(frames.places[2] == Approx(0.5));
+  CHECK(frames.positions[2] == Approx(0.5));
   // around a state alone it is the camera's angle
   RunSummary once_around = summarise_run(run);
   once_around.turn_deg = 288;
   const ProgressAxis angle = once_around.progress();
   CHECK((angle.name == "angle" && angle.first == 0 && angle.last == 288 && angle.unit == "°"));
-  CHECK(angle.places[2] == Approx(0.5));
+  CHECK(angle.positions[2] == Approx(0.5));
 }
 
 TEST_CASE("a pushed shell is seen over its first state, with the push in the picture's plane") {
@@ -330,7 +330,7 @@ TEST_CASE("the colour range is fixed over the movie and symmetric") {
     largest = std::max(largest, frame.cell_K.cwiseAbs().maxCoeff());
   CHECK(scale.high > 0.5 * largest);
   CHECK(scale.high < 2 * largest);
-  CHECK(stage.colour_bar()->beyond_high == (largest > scale.high));
+  CHECK(stage.colour_bar()->above_scale == (largest > scale.high));
   // however many frames sample the path
   const record::Trajectory fine = synthetic::dome(31, 2);
   CHECK(Stage(fine, MovieStyle{}).colour_bar()->scale.high == scale.high);

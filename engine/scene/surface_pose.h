@@ -33,13 +33,13 @@ Result<Surface::Function> outside_of(const preset::Net& requested);
 
 /// The start of the net that the preset gives, and its axes. Errors (bad_input): an apex further
 /// from the surface than `allowed_mm`, or outside the boundary.
-Result<NetPlace> given_place(const preset::Net& requested, const ShapedSurface& shape,
-                             const Surface::Function& outside, double allowed_mm);
+Result<NetPose> given_pose(const preset::Net& requested, const ShapedSurface& shape,
+                           const Surface::Function& outside, double allowed_mm);
 
 /// Sets position and scale of the flat footprint of a net with a domain: in the plane of the cut,
 /// or at the boundary's mean height, below the apex, with its diagonal along that of the rods
 /// there. Errors: those of the net.
-Result<void> lay_flat(const preset::Net& requested, const NetPlace& place, NetDesign& design);
+Result<void> lay_flat(const preset::Net& requested, const NetPose& pose, NetDesign& design);
 
 /// The net on a mesh: a smooth surface is fitted to it, and the net is computed on that from the
 /// given apex or the best start, as far as it reaches. Errors (bad_input): a mesh that is no sheet,

@@ -1,4 +1,4 @@
-#include "engine/scene/surface_place.h"
+#include "engine/scene/surface_pose.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -61,8 +61,8 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& requested, const ShapedSurfac
 }
 
 /// The directions of the net's axes on the surface at its apex.
-Result<NetPlace> place_of(const preset::Net& requested, const Surface& surface,
-                          const Eigen::Vector3d& apex) {
+Result<NetPose> pose_at(const preset::Net& requested, const Surface& surface,
+                        const Eigen::Vector3d& apex) {
   constexpr double steepest = 0.1;
   const Surface::Curvature bent = surface.curvature(apex);
   Eigen::Vector3d up = bent.axes.col(2);
@@ -76,38 +76,38 @@ Result<NetPlace> place_of(const preset::Net& requested, const Surface& surface,
   // the direction towards +x of the two opposite ones
   if (along.x() < 0) along = -along;
   const double turned = requested.axis_deg * std::numbers::pi / 180;
-  return NetPlace{apex, Eigen::AngleAxisd(turned, up) * along, up, {}};
+  return NetPose{apex, Eigen::AngleAxisd(turned, up) * along, up, {}};
 }
 
-FlatFrame flat_frame(const preset::Net& requested, const NetPlace& place,
+FlatFrame flat_frame(const preset::Net& requested, const NetPose& pose,
                      const Eigen::Matrix3Xd& ring) {
   FlatFrame frame;
-  frame.origin = place.apex;
+  frame.origin = pose.apex;
   frame.origin.z() = requested.within.empty() && (requested.cut_mm || !requested.file.is_mesh())
                          ? requested.cut_mm.value_or(0)
                          : ring.row(2).mean();
   const Eigen::Vector2d diagonal =
-      (place.along_u + place.up.cross(place.along_u)).head<2>().normalized();
+      (pose.along_u + pose.up.cross(pose.along_u)).head<2>().normalized();
   frame.axes = axes_about(diagonal);
   return frame;
 }
 
 }  // namespace
 
-Result<NetPlace> given_place(const preset::Net& requested, const ShapedSurface& shape,
-                             const Surface::Function& outside, double allowed_mm) {
+Result<NetPose> given_pose(const preset::Net& requested, const ShapedSurface& shape,
+                           const Surface::Function& outside, double allowed_mm) {
   TRY(apex, apex_of(requested, shape, allowed_mm));
   if (!(outside(*apex) < 0))
     return invalid("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
                    requested.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
-  TRY(place, place_of(requested, shape.surface, *apex));
-  place->outside = outside;
-  return place;
+  TRY(pose, pose_at(requested, shape.surface, *apex));
+  pose->outside = outside;
+  return pose;
 }
 
-Result<void> lay_flat(const preset::Net& requested, const NetPlace& place, NetDesign& design) {
+Result<void> lay_flat(const preset::Net& requested, const NetPose& pose, NetDesign& design) {
   TRY(ring, points_on(*design.net, design.domain->boundary(256)));
-  design.flat = flat_frame(requested, place, *ring);
+  design.flat = flat_frame(requested, pose, *ring);
   const Eigen::Vector2d middle = ring->topRows<2>().rowwise().mean();
   design.scale_mm = (ring->topRows<2>().colwise() - middle).colwise().norm().maxCoeff();
   return {};
