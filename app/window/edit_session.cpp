@@ -143,17 +143,17 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
     return invalid("the model 'net' is geometry alone: there is nothing to push");
   // on the mesh on which a run follows the path, so that both reach the same states
   const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
-  TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
+  TRY(path, simulate::follow_actuation(scene, plan, false, 1, watch));
   std::vector<PathMark> marks;
-  for (const simulate::PathSegment& segment : course->segments)
+  for (const simulate::PathSegment& segment : path->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
   const bool snapped = std::ranges::any_of(
-      course->segments, [](const auto& segment) { return !segment.report.events.empty(); });
-  set_shell(preset, scene, std::move(course->simulation));
+      path->segments, [](const auto& segment) { return !segment.report.events.empty(); });
+  set_shell(preset, scene, std::move(path->simulation));
   now_.marks = std::move(marks);
   now_.snapped = snapped;
   now_.first.reset();
-  view_.message = view_.event = course->limit_reason;
+  view_.message = view_.event = path->limit_reason;
   if (!preset.step.empty()) refine(watch);  // as a run does before its steps
   for (const preset::Step& step : preset.step) {
     // do_step() compares with the state in the view

@@ -29,7 +29,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
 /// error, no_equilibrium, "there is no actuated shell `wanted_for`: ..."; one whose mesh is
 /// too_coarse() is returned as far as it was followed.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
-                                               const LevelPlan& plan, std::string_view wanted_for,
+                                               const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context = {});
 
 /// Passes frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. If the

@@ -168,9 +168,9 @@ Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
 
 /// Whether a path that started past a limit has returned: the limit then applies as usual.
 void Simulation::Walk::note_return() {
-  if (!from_exceeded_ || of_.exceeded_limit()) return;
+  if (!began_past_limit_ || of_.exceeded_limit()) return;
   limits_ = of_.limits();
-  from_exceeded_ = false;
+  began_past_limit_ = false;
 }
 
 /// Whether the path need not be followed further on this mesh: its error estimate is above the

@@ -76,7 +76,7 @@ class Simulation::Walk {
   const Watch& watch_;
   // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
-  bool from_exceeded_ = of_.exceeded_limit().has_value();
+  bool began_past_limit_ = of_.exceeded_limit().has_value();
   StabilityStepControl softening_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
