@@ -35,6 +35,14 @@ TEST_CASE("the edited shell is the one that a run ends in") {
   CHECK(shell.view().certificate.error_estimate_mm < 1e-3 * 66);
 }
 
+TEST_CASE("where only finer meshes have the events of a path, the edited shell is the one of a run",
+          "[standard]") {
+  // a shell that snaps twice and is confirmed on 64 edges per segment; four edges have another end
+  preset::Preset preset = shipped("curve_ellipse");
+  preset.movie.frames = 1;
+  CHECK(apart(EditedShell(preset), end_of_run(preset)) < 1e-4);
+}
+
 TEST_CASE("the symmetry of a state is reported once it is refined") {
   EditedShell shell;
   CHECK(shell.view().symmetry == "two diagonal mirrors");
