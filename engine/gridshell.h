@@ -36,9 +36,9 @@
 #include "engine/simulate/expected_cost.h"     // IWYU pragma: export
 #include "engine/simulate/frames.h"            // IWYU pragma: export
 #include "engine/simulate/indentation.h"       // IWYU pragma: export
-#include "engine/simulate/kept_segments.h"     // IWYU pragma: export
 #include "engine/simulate/mesh_policy.h"       // IWYU pragma: export
 #include "engine/simulate/run.h"               // IWYU pragma: export
+#include "engine/simulate/saved_segments.h"    // IWYU pragma: export
 #include "engine/simulate/simulation.h"        // IWYU pragma: export
 #include "engine/simulate/steps.h"             // IWYU pragma: export
 #include "engine/solve/buckling.h"             // IWYU pragma: export

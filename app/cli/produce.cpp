@@ -97,7 +97,7 @@ Result<record::Summary> computed(Run& run, int threads, const fs::path& segments
                                  record::Sink& sink, Watch& watch) {
   if (!run.preset.jitter.requested()) {
     RunContext context{std::make_shared<Team>(threads), nullptr};
-    if (!segments.empty()) context.segments = std::make_shared<simulate::KeptSegments>(segments);
+    if (!segments.empty()) context.segments = std::make_shared<simulate::SavedSegments>(segments);
     return simulate::run(run.preset, std::exchange(run.scene, nullptr),
                          run.pictures == Pictures::stills, sink, watch, context);
   }

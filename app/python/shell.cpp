@@ -40,12 +40,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 Result<Done> Shell::form(double progress, const Watch& watch) {
   if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // the current state
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
-  auto path = simulate::converged_path(
-      *scene_,
-      [&](const LevelPlan& plan, const Watch& w) {
-        return simulate::follow_actuation(scene_, plan, false, progress, w);
-      },
-      watch);
+  auto path = simulate::converged_actuation(scene_, false, progress, watch);
   if (!path) return tl::unexpected<Error>(path.error());
   session_ = std::move(path->simulation);
   formed_ = true;
@@ -131,8 +126,7 @@ Result<void> Shell::restore(const Saved& saved) {
 Result<State> Shell::look() {
   const RodMesh& mesh = session_->shell().finest();
   if (layout_nodes_ != mesh.rod_nodes()) {
-    TRY(layout, simulate::layout_of(*scene_, mesh));
-    layout->extrapolated = session_->shell().plan().extrapolate;
+    TRY(layout, simulate::layout_of(*session_));
     layout_ = std::make_shared<const record::Layout>(std::move(*layout));
     layout_nodes_ = mesh.rod_nodes();
   }

@@ -141,9 +141,11 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rod_model == RodModel::net)
     return invalid("the model 'net' is geometry alone: there is nothing to push");
-  // on the mesh on which a run follows the path, so that both reach the same states
-  const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
-  TRY(path, simulate::follow_actuation(scene, plan, false, 1, watch));
+  // on the meshes of a run, so that both reach the same states; while a number is dragged on one
+  // mesh, which does not know whether finer ones have its events
+  const LevelPlan one{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
+  TRY(path, passing_ ? simulate::follow_actuation(scene, one, false, 1, watch)
+                     : simulate::converged_actuation(scene, false, 1, watch));
   std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : path->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));

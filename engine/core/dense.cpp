@@ -62,6 +62,19 @@ Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector
   return turn;
 }
 
+void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal,
+                       const Eigen::VectorXd& upper, Eigen::Ref<Eigen::MatrixXd> b) {
+  for (Eigen::Index k = 1; k < b.cols(); ++k) {
+    const double factor = lower[k] / diagonal[k - 1];
+    diagonal[k] -= factor * upper[k - 1];
+    b.col(k) -= factor * b.col(k - 1);
+  }
+  for (Eigen::Index k = b.cols(); k-- > 0;) {
+    if (k + 1 < b.cols()) b.col(k) -= upper[k] * b.col(k + 1);
+    b.col(k) /= diagonal[k];
+  }
+}
+
 Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
                                    std::size_t left_out) {
   Eigen::VectorXd all(Eigen::Index(known.size()));

@@ -32,6 +32,12 @@ Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 /// A^-1 b of a symmetric, positive definite A.
 Eigen::VectorXd definite_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+/// Solves row k of a tridiagonal system: lower[k] x[k - 1] + diagonal[k] x[k] + upper[k] x[k + 1] =
+/// b[k], by elimination without pivoting [Thomas]; lower[0] and the last of upper are not read.
+/// `b`: one column per row of the system, on return the x.
+void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal,
+                       const Eigen::VectorXd& upper, Eigen::Ref<Eigen::MatrixXd> b);
+
 /// The X that minimises |A X - B|, A of full rank.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/dense.h"
+
 namespace gridshell::preset {
 namespace {
 
@@ -71,37 +73,30 @@ std::vector<Eigen::Vector3d> b_spline_points(const SplineData& spline) {
   return points;
 }
 
-/// Second derivatives of the cubic spline through points at t: tridiagonal, by Thomas' algorithm.
-std::vector<Eigen::Vector3d> curvatures(const SplineData& spline, const std::vector<double>& t) {
+/// Second derivatives, 3 x n, of the cubic spline through points at t.
+Eigen::MatrixXd curvatures(const SplineData& spline, const std::vector<double>& t) {
   const auto& f = spline.fits;
-  const std::size_t n = f.size();
-  std::vector<double> below(n, 0), on(n, 1), above(n, 0);
-  std::vector<Eigen::Vector3d> m(n, Eigen::Vector3d::Zero());
-  const auto slope = [&](std::size_t k) -> Eigen::Vector3d {
+  const auto n = Eigen::Index(f.size());
+  Eigen::VectorXd below = Eigen::VectorXd::Zero(n), on = Eigen::VectorXd::Ones(n), above = below;
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(3, n);
+  const auto slope = [&](Eigen::Index k) -> Eigen::Vector3d {
     return (f[k + 1] - f[k]) / (t[k + 1] - t[k]);
   };
-  for (std::size_t k = 1; k + 1 < n; ++k) {
+  for (Eigen::Index k = 1; k + 1 < n; ++k) {
     below[k] = t[k] - t[k - 1];
     above[k] = t[k + 1] - t[k];
     on[k] = 2 * (below[k] + above[k]);
-    m[k] = 6 * (slope(k) - slope(k - 1));
+    m.col(k) = 6 * (slope(k) - slope(k - 1));
   }
   if (spline.tangents.size() == 2) {
-    on[0] = 2 * (t[1] - t[0]);
-    above[0] = below[n - 1] = t[1] - t[0];
-    m[0] = 6 * (slope(0) - spline.tangents[0]);
+    above[0] = t[1] - t[0];
+    on[0] = 2 * above[0];
+    m.col(0) = 6 * (slope(0) - spline.tangents[0]);
     below[n - 1] = t[n - 1] - t[n - 2];
     on[n - 1] = 2 * below[n - 1];
-    m[n - 1] = 6 * (spline.tangents[1] - slope(n - 2));
+    m.col(n - 1) = 6 * (spline.tangents[1] - slope(n - 2));
   }
-  for (std::size_t k = 1; k < n; ++k) {
-    const double fraction = below[k] / on[k - 1];
-    on[k] -= fraction * above[k - 1];
-    m[k] -= fraction * m[k - 1];
-  }
-  for (std::size_t k = n; k-- > 0;)
-    m[k] = (m[k] - (k + 1 < n ? Eigen::Vector3d(above[k] * m[k + 1]) : Eigen::Vector3d::Zero())) /
-           on[k];
+  solve_tridiagonal(below, on, above, m);
   return m;
 }
 
@@ -119,7 +114,7 @@ std::vector<Eigen::Vector3d> fitted_points(SplineData spline) {
     const auto at = [&](double s) -> Eigen::Vector3d {
       const double b = (s - t[k]) / h, a = 1 - b;
       return a * f[k] + b * f[k + 1] +
-             ((a * a * a - a) * m[k] + (b * b * b - b) * m[k + 1]) * h * h / 6;
+             ((a * a * a - a) * m.col(k) + (b * b * b - b) * m.col(k + 1)) * h * h / 6;
     };
     append_span(at, t[k], t[k + 1], points);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/algorithms.h"
+#include "engine/core/dense.h"
 
 namespace gridshell {
 
@@ -13,7 +14,6 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
   const Eigen::Index n = points.cols();
   std::vector<double> h(n - 1);
   for (Eigen::Index k = 0; k + 1 < n; ++k) h[k] = t[k + 1] - t[k];
-  // Thomas' algorithm on the inner knots, after the end conditions have been inserted
   Eigen::VectorXd diagonal(n), upper(n), lower(n);
   Eigen::MatrixXd m(points.rows(), n);
   for (Eigen::Index k = 1; k + 1 < n; ++k) {
@@ -29,14 +29,8 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
   upper[1] -= lower[1] * first;
   diagonal[n - 2] += upper[n - 2] * (1 + last);
   lower[n - 2] -= upper[n - 2] * last;
-  for (Eigen::Index k = 2; k + 1 < n; ++k) {
-    const double factor = lower[k] / diagonal[k - 1];
-    diagonal[k] -= factor * upper[k - 1];
-    m.col(k) -= factor * m.col(k - 1);
-  }
-  m.col(n - 2) /= diagonal[n - 2];
-  for (Eigen::Index k = n - 3; k >= 1; --k)
-    m.col(k) = (m.col(k) - upper[k] * m.col(k + 1)) / diagonal[k];
+  solve_tridiagonal(lower.segment(1, n - 2), diagonal.segment(1, n - 2), upper.segment(1, n - 2),
+                    m.middleCols(1, n - 2));
   m.col(0) = m.col(1) * (1 + first) - m.col(2) * first;
   m.col(n - 1) = m.col(n - 2) * (1 + last) - m.col(n - 3) * last;
   return m;

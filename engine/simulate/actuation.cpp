@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -209,8 +210,11 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch, context);
-  if (actuated && actuated->too_coarse()) return actuated;
-  if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
+  if (!actuated) return actuated;
+  actuated->earlier = std::exchange(actuated->segments, {});
+  for (PathSegment& segment : actuated->earlier) segment.free_states();
+  if (actuated->too_coarse()) return actuated;
+  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
     return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", purpose,
                 actuated->limit_reason,
                 actuated->limit == record::Limit::locking
@@ -219,21 +223,27 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
   return actuated;
 }
 
+Result<EquilibriumPath> converged_actuation(const std::shared_ptr<const Scene>& scene, bool inner,
+                                            double to, const Watch& watch,
+                                            const RunContext& context) {
+  auto path = converged_path(
+      *scene,
+      [&](const LevelPlan& plan, const Watch& w) {
+        return follow_actuation(scene, plan, inner, to, w, context);
+      },
+      watch);
+  if (path) set_limit(*path, at_progress);
+  return path;
+}
+
 Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
                                       Watch& watch, const RunContext& context) {
   const bool inner = std::ranges::any_of(progress, [](double p) { return p > 0 && p < 1; });
-  auto path = converged_path(
-      *scene,
-      [&](const LevelPlan& plan, const Watch& w) {
-        return follow_actuation(scene, plan, inner, progress.back(), w, context);
-      },
-      watch);
+  auto path = converged_actuation(scene, inner, progress.back(), watch, context);
   if (!path) return path;
-  set_limit(*path, at_progress);
   path->contacts = contact_events(*path, at_progress);
-  TRY(layout, layout_of(*scene, path->simulation.shell().finest()));
-  layout->extrapolated = path->simulation.shell().plan().extrapolate;
+  TRY(layout, layout_of(path->simulation));
   TRY_DO(sink.begin(std::move(*layout)));
   PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
   std::vector<PathSample> samples;

@@ -25,12 +25,18 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
                                          const LevelPlan& plan, bool inner, double to,
                                          const Watch& watch, const RunContext& context = {});
 
-/// Follows the actuation to progress 1 for a later task. An actuation that ends earlier is an
-/// error, no_equilibrium, "there is no actuated shell `wanted_for`: ..."; one whose mesh is
-/// too_coarse() is returned as far as it was followed.
+/// Follows the actuation to progress 1 for a later task: its segments are `earlier`, without their
+/// states. An actuation that ends earlier is an error, no_equilibrium, "there is no actuated shell
+/// `wanted_for`: ..."; one whose mesh is too_coarse() is returned as far as it was followed.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context = {});
+
+/// The actuation on the coarsest meshes that confirm it (mesh_policy.h): its limit reports what
+/// they do not. Errors: as follow_actuation().
+Result<EquilibriumPath> converged_actuation(const std::shared_ptr<const Scene>& scene, bool inner,
+                                            double to, const Watch& watch,
+                                            const RunContext& context = {});
 
 /// Passes frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. If the
 /// path ends before a sample, the path's limit gives the reason. Errors: as follow_actuation(), and

@@ -32,7 +32,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   else if (scene_.stops_at_contact || scene_.limits_strength())
     shell_.advance(shell_.followed().t, watch_);
   if (auto limit = of_.exceeded(limits_)) return end_before(std::move(*limit), now(), good);
-  if (now() != good.t) note();
+  if (now() != good.t) record_step();
   const NestedState end_of_branch = shell_.state();
   Event event{.kind = kind, .t = shell_.followed().t, .error = {}, .to = {}};
   event.location = {shell_.plan().edges_per_segment.back(), event.t, located_to()};
@@ -44,7 +44,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
     return Outcome::reached;
   }
   std::vector<TimedState> moments;
-  if (!leave(event, moments)) {
+  if (!switch_branch(event, moments)) {
     events_.push_back(std::move(event));
     return watch_.cancelled() ? Outcome::cancelled : how;
   }
@@ -59,12 +59,12 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   events_.push_back(std::move(event));
   unmeasured_since_.reset();
   companion_.reset();
-  softening_.forget();
-  keep();
+  step_control_.clear();
+  accept();
   return Outcome::reached;
 }
 
-void Simulation::Walk::keep_companion() {
+void Simulation::Walk::store_companion() {
   const int companion = shell_.last() - 1;
   if (companion >= 0 && shell_.state().measured <= companion)
     companion_ = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
@@ -75,7 +75,7 @@ void Simulation::Walk::keep_companion() {
 void Simulation::Walk::confirm(Event& event) {
   const int companion = shell_.last() - 1;
   if (companion < 0) return;
-  keep_companion();
+  store_companion();
   event.confirmed = false;
   if (!companion_) return;
   constexpr double found_to = 5e-5;  // accuracy in the path parameter
@@ -107,8 +107,8 @@ double Simulation::Walk::parameter_scale(double t) const {
 
 /// Searches for the equilibrium at `there`, past the event, from which the path continues. The path
 /// is then in that equilibrium or, if there is none, where the branch ended.
-bool Simulation::Walk::leave_to(double there, const PathPoint& last, Event& event,
-                                std::vector<TimedState>& moments) {
+bool Simulation::Walk::switch_branch_to(double there, const PathPoint& last, Event& event,
+                                        std::vector<TimedState>& moments) {
   moments.clear();
   const auto rest =
       rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);
@@ -142,7 +142,7 @@ bool Simulation::Walk::skipped_a_branch(const PathPoint& last) {
 
 /// Searches for the equilibrium after the end of a branch, first next to the event, then at larger
 /// distances. If it is on the branch that had ended, the search continues nearer to the event.
-bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
+bool Simulation::Walk::switch_branch(Event& event, std::vector<TimedState>& moments) {
   const PathPoint last = shell_.followed();
   const double sign = to_ > last.t ? 1 : -1;
   const auto at = [&](double scales) {
@@ -153,7 +153,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   bool found = false;
   for (double distance = nearest; !found && distance < farthest && !watch_.cancelled();
        distance *= 2) {
-    found = leave_to(at(distance), last, event, moments);
+    found = switch_branch_to(at(distance), last, event, moments);
     if (at(distance) == to_) break;
   }
   if (!found || event.kind != Event::Kind::stability_lost || scene_.snap.requested ||
@@ -164,7 +164,8 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   for (double distance = nearest / 2; distance > nearest_by_far; distance /= 2) {
     shell_.back_to(far);
     shell_.start_path(last.t, last.state);
-    if (leave_to(at(distance), last, event, moments) && !skipped_a_branch(last)) return true;
+    if (switch_branch_to(at(distance), last, event, moments) && !skipped_a_branch(last))
+      return true;
     if (watch_.cancelled()) return false;
   }
   shell_.back_to(far);
@@ -200,7 +201,7 @@ Outcome Simulation::Walk::end_before(Event limit, double bad, const NestedState&
   if (limit.kind != Event::Kind::locked) {
     // the error of a single mesh is not known
     if (shell_.levels() > 1) limit.error = located_to();
-    if (now() != good.t) note();
+    if (now() != good.t) record_step();
   }
   return end_at(std::move(limit));
 }

@@ -239,6 +239,12 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   return layout;
 }
 
+Result<record::Layout> layout_of(const Simulation& simulation) {
+  TRY(layout, layout_of(simulation.scene(), simulation.shell().finest()));
+  layout->extrapolated = simulation.shell().plan().extrapolate;
+  return layout;
+}
+
 void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                 const Eigen::VectorXd& K, record::Frame& frame) {
   frame.cell_K = K;

@@ -28,6 +28,8 @@ std::string text_of(const record::Contact& contact, const Footprint& footprint);
 /// The layout of a run, all that does not change: the nodes of `mesh` (without ghosts), the net,
 /// the boundaries. Errors: those of the net.
 Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);
+/// The layout on the finest mesh of a simulation, which says whether positions are extrapolated.
+Result<record::Layout> layout_of(const Simulation& simulation);
 
 /// Writes what depends on the shape alone: positions of the mesh's nodes without ghosts, K of the
 /// cells and its bins along x, height.

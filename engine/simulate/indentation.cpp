@@ -240,8 +240,6 @@ Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
   const auto joints = Eigen::Index(scene->footprint.joints.size());
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   PushedShell pushed{std::move(*actuated), *push, std::move(before)};
-  pushed.earlier = std::exchange(pushed.segments, {});
-  for (PathSegment& segment : pushed.earlier) segment.free_states();
   Constraint constraint{push->joint};
   if (requested.lateral == preset::Lateral::free)
     constraint.directions = push->displacement.normalized();
@@ -267,9 +265,8 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   if (!kept) return tl::unexpected<Error>(kept.error());
   set_push_limit(*kept, watch);
   kept->contacts = contact_events(*kept, at_depth(kept->depth_mm()));
-  TRY(layout, layout_of(*scene, kept->simulation.shell().finest()));
+  TRY(layout, layout_of(kept->simulation));
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
-  layout->extrapolated = kept->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)

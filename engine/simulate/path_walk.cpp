@@ -16,20 +16,20 @@ constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
 }  // namespace
 
-void StabilityStepControl::take(const NestedState& state) {
-  known_.push_back({state.t, state.lowest_eigenvalue});
+void StabilityStepControl::add(const NestedState& state) {
+  history_.push_back({state.t, state.lowest_eigenvalue});
 }
 
 bool StabilityStepControl::near_zero() const {
   constexpr double low = 0.25;  // over the largest stiffness of the branch
   double largest = 0;
-  for (const simulate::Softness& one : known_) largest = std::fmax(largest, one.stiffness);
-  return !known_.empty() && known_.back().stiffness < low * largest;
+  for (const simulate::LowestStiffness& one : history_) largest = std::fmax(largest, one.stiffness);
+  return !history_.empty() && history_.back().stiffness < low * largest;
 }
 
 double StabilityStepControl::shortened(double step) const {
-  if (known_.size() < 2) return step;
-  const auto &before = known_.end()[-2], &now = known_.back();
+  if (history_.size() < 2) return step;
+  const auto &before = history_.end()[-2], &now = history_.back();
   const double fall = (before.stiffness - now.stiffness) / std::abs(now.t - before.t);
   // also where a stiffness is not known
   if (!(fall > 0)) return step;
@@ -53,18 +53,18 @@ Report Simulation::Walk::all() {
   shell_.allow_unstable(leaving_.through_unstable);
   shell_.watch_stability(watches_stability(), watch_);
   Outcome end = Outcome::reached;
-  if (goes_on()) {
+  if (resume()) {
     end = segment_.end.value_or(end);
   } else {
-    keep();
-    keep_segment({});
+    accept();
+    save_segment({});
     if (too_coarse()) end = Outcome::too_coarse;
   }
   while (end == Outcome::reached && now() != to_) {
     end = step();
-    if (end == Outcome::reached) keep_segment({});
+    if (end == Outcome::reached) save_segment({});
   }
-  if (end != Outcome::cancelled) keep_segment(end);
+  if (end != Outcome::cancelled) save_segment(end);
   shell_.allow_unstable(false);
   shell_.watch_stability(false);
   // the path may be ahead of what is certified
@@ -75,7 +75,7 @@ Report Simulation::Walk::all() {
   return done;
 }
 
-void Simulation::Walk::note() {
+void Simulation::Walk::record_step() {
   if (record_) record_->load_steps.push_back({shell_.point(), of_.certificate(), of_.contacts()});
 }
 
@@ -85,13 +85,13 @@ void Simulation::Walk::report_position() const {
 }
 
 /// Records the current state as a load step from which the path continues.
-void Simulation::Walk::keep() {
-  note();
+void Simulation::Walk::accept() {
+  record_step();
   report_position();
-  keep_companion();
+  store_companion();
   if (!watches_stability()) return;
-  softening_.take(shell_.state());
-  if (softening_.near_zero())
+  step_control_.add(shell_.state());
+  if (step_control_.near_zero())
     record_->load_steps.back().stability_confirmed = shell_.stability_confirmed(watch_);
 }
 
@@ -99,19 +99,19 @@ void Simulation::Walk::keep() {
 
 /// Whether an earlier run saved this segment or its start; the shell then has the state saved
 /// there.
-bool Simulation::Walk::goes_on() {
-  if (!kept_) return false;
+bool Simulation::Walk::resume() {
+  if (!saved_) return false;
   segment_.begin = {Checksum::of({reinterpret_cast<const char*>(shell_.state().x.data()),
                                   sizeof(double) * std::size_t(shell_.state().x.size())}),
                     now(), to_, shell_.plan().edges_per_segment};
   effort_before_ = of_.effort();
-  auto before = kept_->next(segment_.begin);
+  auto before = saved_->next(segment_.begin);
   if (!before) return false;
   segment_ = std::move(*before);
   of_.charge(segment_.effort);
   static_cast<PathRecord&>(*record_) = std::move(segment_.record);
   events_ = segment_.events;
-  softening_.know(segment_.softening);
+  step_control_.set_history(segment_.lowest_stiffness);
   unmeasured_since_ = segment_.unmeasured_since;
   companion_ = segment_.companion;
   const bool stays = std::ranges::any_of(events_, [](const Event& event) {
@@ -126,18 +126,18 @@ bool Simulation::Walk::goes_on() {
 
 /// Saves the segment if enough time was spent since the last save; the result of a cancelled step
 /// is not saved.
-void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
-  if (!kept_ || !kept_->wants(end.has_value())) return;
+void Simulation::Walk::save_segment(std::optional<Outcome> end) {
+  if (!saved_ || !saved_->should_save(end.has_value())) return;
   segment_.end = end;
   segment_.state = shell_.state();
   segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
-  segment_.softening = softening_.known();
+  segment_.lowest_stiffness = step_control_.history();
   segment_.unmeasured_since = unmeasured_since_;
   segment_.companion = companion_;
   // moved there and back, not copied, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
-  kept_->keep(segment_);
+  saved_->save(segment_);
   std::swap<PathRecord>(segment_.record, *record_);
 }
 
@@ -145,32 +145,32 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
 
 Outcome Simulation::Walk::step() {
   if (watch_.cancelled()) return Outcome::cancelled;
-  const double left = to_ - now(), longest = softening_.shortened(of_.load_step());
+  const double left = to_ - now(), longest = step_control_.shortened(of_.load_step());
   // where the path follower needs short steps, load steps are at most eight times shorter, too
   const double step = std::clamp(shell_.state().step, longest / 8, longest);
   const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
   const double next = steps == 1 ? to_ : now() + left / steps;
   const NestedState good = shell_.state();
   const Outcome end = shell_.advance(next, watch_).end;
-  if (end == Outcome::reached) return step_came(next, good);
+  if (end == Outcome::reached) return accept_step(next, good);
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
   const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;
   if (!ended || !leaving_.requested || events_.size() >= most) return end;
   return branch_ended(end, next, good);
 }
 
-Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
+Outcome Simulation::Walk::accept_step(double next, const NestedState& good) {
   if (auto limit = of_.exceeded(limits_)) return end_before(std::move(*limit), next, good);
   note_return();
-  keep();
+  accept();
   return too_coarse() ? Outcome::too_coarse : Outcome::reached;
 }
 
 /// Whether a path that started past a limit has returned: the limit then applies as usual.
 void Simulation::Walk::note_return() {
-  if (!began_past_limit_ || of_.exceeded_limit()) return;
+  if (!from_past_limit_ || of_.exceeded_limit()) return;
   limits_ = of_.limits();
-  began_past_limit_ = false;
+  from_past_limit_ = false;
 }
 
 /// Whether the path need not be followed further on this mesh: its error estimate is above the

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/simulate/kept_segments.h"
+#include "engine/simulate/saved_segments.h"
 #include "engine/simulate/simulation.h"
 
 namespace gridshell {
@@ -16,19 +16,21 @@ namespace gridshell {
 class StabilityStepControl {
  public:
   /// Adds a load step that was certified.
-  void take(const NestedState& state);
+  void add(const NestedState& state);
   /// Clears the history of the path, which continues from another state.
-  void forget() { known_.clear(); }
+  void clear() { history_.clear(); }
   /// The load step to take instead of `step`, at least an eighth of it.
   double shortened(double step) const;
   /// Whether the last stiffness is low enough for its error by the mesh to matter.
   bool near_zero() const;
   /// The history, for a path that continues later.
-  const std::vector<simulate::Softness>& known() const { return known_; }
-  void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
+  const std::vector<simulate::LowestStiffness>& history() const { return history_; }
+  void set_history(std::vector<simulate::LowestStiffness> history) {
+    history_ = std::move(history);
+  }
 
  private:
-  std::vector<simulate::Softness> known_;  // at the load steps of this branch
+  std::vector<simulate::LowestStiffness> history_;  // at the load steps of this branch
 };
 
 /// Follows one segment of the path: its load steps, its events, and the limit that ends it.
@@ -42,16 +44,16 @@ class Simulation::Walk {
 
  private:
   double now() const { return shell_.state().t; }
-  void note();
+  void record_step();
   void report_position() const;
-  void keep();
-  bool goes_on();
+  void accept();
+  bool resume();
   bool watches_stability() const {
     return record_ && of_.actuating_ && leaving_.requested && scene_.imperfection.chooses();
   }
-  void keep_segment(std::optional<Outcome> end);
+  void save_segment(std::optional<Outcome> end);
   Outcome step();
-  Outcome step_came(double next, const NestedState& good);
+  Outcome accept_step(double next, const NestedState& good);
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
   Outcome end_at(Event limit);
   Outcome end_before(Event limit, double bad, const NestedState& good);
@@ -60,12 +62,12 @@ class Simulation::Walk {
   double located_to() const;
   double parameter_scale(double t) const;
   void bisect(double bad, const NestedState& good, const std::function<bool()>& accepted);
-  bool leave(Event& event, std::vector<TimedState>& moments);
-  bool leave_to(double there, const PathPoint& last, Event& event,
-                std::vector<TimedState>& moments);
+  bool switch_branch(Event& event, std::vector<TimedState>& moments);
+  bool switch_branch_to(double there, const PathPoint& last, Event& event,
+                        std::vector<TimedState>& moments);
   bool skipped_a_branch(const PathPoint& last);
   void confirm(Event& event);
-  void keep_companion();
+  void store_companion();
 
   Simulation& of_;
   NestedShell& shell_ = *of_.shell_;
@@ -76,14 +78,14 @@ class Simulation::Walk {
   const Watch& watch_;
   // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
-  bool began_past_limit_ = of_.exceeded_limit().has_value();
-  StabilityStepControl softening_;
+  bool from_past_limit_ = of_.exceeded_limit().has_value();
+  StabilityStepControl step_control_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
   std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
   // the segment that is saved, as it was after the last step
-  simulate::KeptSegments* kept_ = record_ ? of_.context_.segments.get() : nullptr;
-  simulate::KeptSegment segment_;
+  simulate::SavedSegments* saved_ = record_ ? of_.context_.segments.get() : nullptr;
+  simulate::SavedSegment segment_;
   Effort effort_before_;
 };
 

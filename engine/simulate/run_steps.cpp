@@ -90,8 +90,6 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
-  work.earlier = std::exchange(work.segments, {});
-  for (PathSegment& segment : work.earlier) segment.free_states();
   work.single_motion = false;
   Simulation& simulation = work.simulation;
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -350,8 +348,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
   for (ContactEvent& event : work->contacts)
     event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
                              event.text);
-  TRY(layout, layout_of(*scene, work->simulation.shell().finest()));
-  layout->extrapolated = work->simulation.shell().plan().extrapolate;
+  TRY(layout, layout_of(work->simulation));
   put_loads(*work, steps, *layout);
   TRY_DO(sink.begin(std::move(*layout)));
   TRY_DO(Show(*work, steps, frames, sink, watch).all());

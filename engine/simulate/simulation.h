@@ -177,14 +177,14 @@ inline constexpr double nearest_mm = 1e-9;
 enum class Across { free, fixed };
 
 namespace simulate {
-class KeptSegments;
+class SavedSegments;
 }
 
 /// Services of a run, which change no result.
 struct RunContext {
   std::shared_ptr<Team> team;  ///< threads for large shells; null: one thread
-  /// Saved segments of the path, from which the run continues; null: none (kept_segments.h).
-  std::shared_ptr<simulate::KeptSegments> segments;
+  /// Saved segments of the path, from which the run continues; null: none (saved_segments.h).
+  std::shared_ptr<simulate::SavedSegments> segments;
 };
 
 /// A simulation of one scene. It is not thread-safe. A watch may be cancelled from any thread; the

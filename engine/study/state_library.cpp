@@ -138,9 +138,8 @@ Result<void> measure(const std::shared_ptr<const Scene>& scene,
       reporting(watch, perturbed, measured)));
   keep(*scene, jitter, first->symmetries(), all, library);
   const NestedShell& shell = first->session().shell();
-  TRY(layout, layout_of(*scene, shell.finest()));
+  TRY(layout, layout_of(first->session()));
   library.layout = std::move(*layout);
-  library.layout.extrapolated = shell.plan().extrapolate;
   library.edges_per_segment = shell.plan().edges_per_segment.back();
   library.dof = shell.model(shell.levels() - 1).dof();
   library.search.completeness = completeness_of(library.states);

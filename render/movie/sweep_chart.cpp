@@ -346,6 +346,8 @@ Plot sweep_plot(const SweepTable& table, const SweepView& view) {
     mark_departure(mean_of(curves[k]), series_colour(k), view.departure, plot);
   add_mark_legend(curves, plot);
   add_failed(curves, plot);
+  if (plot.series.empty())
+    plot.series.push_back(mark_series("no run has a value", grey_ink, Marker::none));
   return plot;
 }
 

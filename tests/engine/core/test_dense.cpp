@@ -34,3 +34,19 @@ TEST_CASE(
     CHECK(polynomial_weights(known, t, 2)[2] == 0);
   }
 }
+
+TEST_CASE("a tridiagonal system is solved as the dense one is") {
+  const Eigen::Index n = 5;
+  Eigen::VectorXd lower(n), diagonal(n), upper(n);
+  lower << 99, 1, -0.5, 0.25, 2;
+  diagonal << 4, 3, 5, -4, 6;
+  upper << 1.5, -1, 2, 0.5, 99;
+  Eigen::MatrixXd A = diagonal.asDiagonal();
+  A.diagonal(-1) = lower.tail(n - 1);
+  A.diagonal(1) = upper.head(n - 1);
+  Eigen::MatrixXd x(2, n);
+  x << 1, -2, 0.5, 3, 4, 0, 7, -1, 2, 2.5;
+  Eigen::MatrixXd b = x * A.transpose();
+  solve_tridiagonal(lower, diagonal, upper, b);
+  CHECK((b - x).cwiseAbs().maxCoeff() < 1e-14);
+}

@@ -137,6 +137,11 @@ TEST_CASE("a run that only lacks the figure is no state that was not found") {
   const Plot plot = sweep_plot(table, {.figure = "force_N"});
   REQUIRE(test::series_named(plot, "no state found"));
   CHECK(test::series_named(plot, "no state found")->x == std::vector<double>{4});
+  CHECK_FALSE(test::series_named(plot, "no run has a value"));
+  std::erase_if(table.rows, [](const SweepTable::Row& row) {
+    return row.result.outcome != record::PointOutcome::done;
+  });
+  CHECK(test::series_named(sweep_plot(table, {.figure = "force_N"}), "no run has a value"));
   table = {{"rod.diameter_mm", "footprint.rods"}, false, false, {}};
   table.rows.push_back({{"", {"1", "6"}, 0}, {}});
   const TemporaryFolder folder;

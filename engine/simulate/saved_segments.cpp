@@ -1,4 +1,4 @@
-#include "engine/simulate/kept_segments.h"
+#include "engine/simulate/saved_segments.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -106,10 +106,10 @@ void put(auto& in, Is<NestedState> auto& s) {
 }
 void put(auto& in, Is<SegmentBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
 void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }
-void put(auto& in, Is<Softness> auto& s) { all(in, s.t, s.stiffness); }
-void put(auto& in, Is<KeptSegment> auto& s) {
-  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.softening, s.unmeasured_since,
-      s.companion);
+void put(auto& in, Is<LowestStiffness> auto& s) { all(in, s.t, s.stiffness); }
+void put(auto& in, Is<SavedSegment> auto& s) {
+  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.lowest_stiffness,
+      s.unmeasured_since, s.companion);
 }
 
 template <class T>
@@ -147,14 +147,14 @@ void all(In& in, T&... values) {
 
 }  // namespace
 
-KeptSegments::KeptSegments(std::filesystem::path folder, double worth_s)
+SavedSegments::SavedSegments(std::filesystem::path folder, double worth_s)
     : folder_(std::move(folder)), worth_s_(worth_s), wait_s_(worth_s), written_at_(seconds_now()) {}
 
-std::filesystem::path KeptSegments::file() const {
+std::filesystem::path SavedSegments::file() const {
   return folder_ / fmt::format("segment_{:04}", segments_);
 }
 
-std::optional<KeptSegment> KeptSegments::next(const SegmentBegin& begin) {
+std::optional<SavedSegment> SavedSegments::next(const SegmentBegin& begin) {
   ++segments_;
   has_file_ = false;
   const auto bytes = read_file(file());
@@ -165,18 +165,18 @@ std::optional<KeptSegment> KeptSegments::next(const SegmentBegin& begin) {
   std::memcpy(&sum, bytes->data() + size, sizeof sum);
   if (sum != Checksum::of(content, ChecksumKind::crc32)) return std::nullopt;
   Unpack in{ByteReader(content)};
-  KeptSegment segment;
+  SavedSegment segment;
   all(in, segment);
   if (!in.bytes.at_end() || segment.begin != begin) return std::nullopt;
   has_file_ = true;
   return segment;
 }
 
-bool KeptSegments::wants(bool at_its_end) const {
+bool SavedSegments::should_save(bool at_its_end) const {
   return (at_its_end && has_file_) || seconds_now() - written_at_ >= wait_s_;
 }
 
-void KeptSegments::keep(const KeptSegment& segment) {
+void SavedSegments::save(const SavedSegment& segment) {
   const double start_s = seconds_now();
   if (make_folder(folder_)) {
     AtomicFile target(file());

@@ -22,19 +22,19 @@ struct SegmentBegin {
 };
 
 /// Lowest stiffness at a load step.
-struct Softness {
+struct LowestStiffness {
   double t = 0, stiffness = 0;
 };
 
 /// A segment as far as it was followed.
-struct KeptSegment {
+struct SavedSegment {
   SegmentBegin begin;
   std::optional<Outcome> end;  ///< empty: it was interrupted
   NestedState state;           ///< state reached
   PathRecord record;
   std::vector<Event> events;
   Effort effort;
-  std::vector<Softness> softening;
+  std::vector<LowestStiffness> lowest_stiffness;
   /// Path parameter since which no coarser mesh has a state; empty: one has.
   std::optional<double> unmeasured_since;
   /// Last state of the next coarser mesh on this branch; time: its path parameter.
@@ -43,19 +43,19 @@ struct KeptSegment {
 
 /// The files of a folder, `segment_0001` and following. A segment is followed again if its file
 /// could not be written, is damaged, or has another start or end.
-class KeptSegments {
+class SavedSegments {
  public:
   /// Between two files at least `worth_s` pass, and 20 times the time that writing takes; 0: every
   /// load step is saved.
-  explicit KeptSegments(std::filesystem::path folder, double worth_s = 2);
+  explicit SavedSegments(std::filesystem::path folder, double worth_s = 2);
 
   /// The next segment of the run, if a part of it was saved.
-  std::optional<KeptSegment> next(const SegmentBegin& begin);
+  std::optional<SavedSegment> next(const SegmentBegin& begin);
   /// Whether enough was followed since the last file to write another; a saved segment is written
   /// at its end too, since later ones start there.
-  bool wants(bool at_its_end) const;
+  bool should_save(bool at_its_end) const;
   /// Saves the segment that was started last.
-  void keep(const KeptSegment& segment);
+  void save(const SavedSegment& segment);
 
  private:
   std::filesystem::path file() const;

@@ -1,5 +1,5 @@
 // A run that is stopped continues from the saved part of its path.
-#include "engine/simulate/kept_segments.h"
+#include "engine/simulate/saved_segments.h"
 
 #include <algorithm>
 #include <atomic>
@@ -40,7 +40,7 @@ struct Run {
 Run run_with(const fs::path& folder, double stop_at = 2) {
   const preset::Preset p = imperfect();
   RunContext context;
-  if (!folder.empty()) context.segments = std::make_shared<KeptSegments>(folder, 0);
+  if (!folder.empty()) context.segments = std::make_shared<SavedSegments>(folder, 0);
   Watch watch;
   std::atomic<bool> over = false;
   std::thread stopper([&] {
@@ -103,15 +103,15 @@ TEST_CASE("a path that was kept whole gives the same bits, and what is damaged i
 
 TEST_CASE("a segment that begins elsewhere is none of the run") {
   const TemporaryFolder folder;
-  KeptSegment segment;
+  SavedSegment segment;
   segment.begin = {7, 0, 1, {4, 8}};
   segment.end = Outcome::reached;
-  KeptSegments segments(folder, 0);
+  SavedSegments segments(folder, 0);
   CHECK_FALSE(segments.next(segment.begin));
-  segments.keep(segment);
-  CHECK(KeptSegments(folder).next(segment.begin)->end == Outcome::reached);
-  CHECK_FALSE(KeptSegments(folder).next({8, 0, 1, {4, 8}}));
-  CHECK_FALSE(KeptSegments(folder).next({7, 0, 1, {4, 8, 16}}));
+  segments.save(segment);
+  CHECK(SavedSegments(folder).next(segment.begin)->end == Outcome::reached);
+  CHECK_FALSE(SavedSegments(folder).next({8, 0, 1, {4, 8}}));
+  CHECK_FALSE(SavedSegments(folder).next({7, 0, 1, {4, 8, 16}}));
 }
 
 TEST_CASE("the history of the lowest stiffness is complete after a restart") {
@@ -120,10 +120,10 @@ TEST_CASE("the history of the lowest stiffness is complete after a restart") {
     NestedState state;
     state.t = 1 / stiffness;
     state.lowest_eigenvalue = stiffness;
-    whole.take(state);
+    whole.add(state);
   }
   CHECK(whole.near_zero());
-  restarted.know(whole.known());
+  restarted.set_history(whole.history());
   CHECK(restarted.near_zero());
   CHECK(restarted.shortened(1) == whole.shortened(1));
 }
