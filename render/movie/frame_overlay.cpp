@@ -237,7 +237,8 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
     const Eigen::Vector3d stretch =
         (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
-    add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
+    // without a force it has no direction to be drawn in
+    if (!stretch.isZero(0)) add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
     drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
   }
   if (!springs.rods.empty()) drawing.ghosts.push_back(std::move(springs));

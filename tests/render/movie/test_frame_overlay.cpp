@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "render/gl/scene.h"
 #include "render/movie/stage.h"
 #include "tests/presets.h"
 #include "tests/render/synthetic.h"
@@ -96,4 +97,11 @@ TEST_CASE("a support on a spring is where its spring pulls from, with the spring
   CHECK((spring.leftCols(1) - rod).norm() < 1e-9);
   CHECK((spring.rightCols(1) - support).norm() < 1e-9);
   CHECK(spring.cols() > 6);
+  // in the unloaded grid the spring has no length
+  record::Frame flat = run.frames[0];
+  flat.reactions_N.setZero();
+  const Drawing unloaded = Stage(run, MovieStyle{}).drawing(flat);
+  CHECK(drawing_error(unloaded).empty());
+  REQUIRE(unloaded.marks.size() == 1);
+  CHECK((unloaded.marks[0].at - flat.nodes.col(node)).norm() == 0);
 }
