@@ -9,7 +9,7 @@
 #
 # PYTHONPATH leads to the Python module; scripts whose imports are missing are left out, with a message.
 set -u
-program=$1 python=$2
+program=$(realpath "$1") python=$2
 shift 2
 source=$(cd "$(dirname "$0")/.." && pwd)
 export PYTHONDONTWRITEBYTECODE=1
