@@ -83,14 +83,12 @@ Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   // that fit into memory, it is accepted with its error
   while (report->end == Outcome::too_coarse) {
     session_->restore(before);
-    LevelPlan plan = session_->shell().plan();
-    const auto next = finer(plan);
-    if (next && fits_memory(*scene_, *next))
-      plan = *next;
-    else
-      plan.allowed_mm = std::numeric_limits<double>::infinity();
-    TRY(finer_meshes, session_->remesh(plan, watch));
-    if (finer_meshes->end != Outcome::reached) return ended("refine", std::move(*finer_meshes));
+    if (const auto next = finer(session_->shell().plan()); next && fits_memory(*scene_, *next)) {
+      TRY(finer_meshes, session_->remesh(*next, watch));
+      if (finer_meshes->end != Outcome::reached) return ended("refine", std::move(*finer_meshes));
+    } else {
+      session_->shell().allow_any_error();
+    }
     before = session_->save();
     TRY(again, simulate::apply_step(*session_, step, watch));
     report = std::move(again);

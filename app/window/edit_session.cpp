@@ -146,6 +146,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const LevelPlan one{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
   TRY(path, passing_ ? simulate::follow_actuation(scene, one, false, 1, watch)
                      : simulate::converged_actuation(scene, false, 1, watch));
+  path->simulation.shell().allow_any_error();  // of the steps that follow: refine() reduces it
   std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : path->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));

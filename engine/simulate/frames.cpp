@@ -94,9 +94,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
                frame);
   }
   const bool extrapolate = shell.extrapolates_forces();
-  const bool no_order = order_unknown(by_term.back());
   CertifiedVectors force =
-      certify_reactions(reactions, extrapolate, shell.model(last), by_term.back());
+      certify_forces(reactions, extrapolate, shell.model(last), by_term.back());
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
@@ -106,7 +105,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.energies = by_term.back();
   if (extrapolate && by_term.size() > 1)
     frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
-  frame.energy_error_mJ = certify_vectors(energies, extrapolate, no_order).error;
+  frame.energy_error_mJ =
+      certify_forces(energies, extrapolate, shell.model(last), by_term.back()).error;
   put_joints(simulation, frame);
 }
 

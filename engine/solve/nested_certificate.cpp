@@ -268,11 +268,11 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
-CertifiedVectors certify_reactions(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
-                                   const Model& model, const Energies& energies) {
+CertifiedVectors certify_forces(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                const Model& model, const Energies& energies) {
   CertifiedVectors found = certify_vectors(levels, extrapolate, order_unknown(energies));
-  const bool moments =
-      !model.hinges.empty() || !std::get<std::vector<Pair<JointSpin>>>(model.pairs).empty();
+  const bool moments = !model.hinges.empty() || !model.followers.empty() ||
+                       !std::get<std::vector<Pair<JointSpin>>>(model.pairs).empty();
   if (moments && levels.size() == 2)
     found.error = std::max(found.error, max_column_norm(levels[1] - levels[0]));
   return found;
@@ -303,7 +303,7 @@ void NestedShell::take_reactions(const std::vector<ConstraintForces>& levels) {
   const Level& finest = *levels_.back();
   const bool extrapolate = extrapolates_forces();
   const Energies& energies = finest.system->assembly().energies;
-  const CertifiedVectors force = certify_reactions(forces, extrapolate, finest.model, energies),
+  const CertifiedVectors force = certify_forces(forces, extrapolate, finest.model, energies),
                          tangent = certify_vectors(stiffness, extrapolate, order_unknown(energies));
   state_.reactions.clear();
   for (const auto& reaction : force.value.colwise()) state_.reactions.emplace_back(reaction);

@@ -63,11 +63,12 @@ bool order_unknown(const Energies& energies);
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
 
-/// Reactions of constrained nodes from `levels`, N. On two meshes of a model whose joints pass
-/// moments the error is the complete difference: the moment at a joint bends the legs next to it,
-/// and at four edges per segment errors of second and of fourth order may cancel there.
-CertifiedVectors certify_reactions(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
-                                   const Model& model, const Energies& energies);
+/// Reactions of constrained nodes, N, or energies, mJ, from `levels`. On two meshes of a model
+/// whose joints pass moments the error is the complete difference: the moment at a joint bends the
+/// legs next to it, and at four edges per segment errors of second and of fourth order may cancel
+/// there.
+CertifiedVectors certify_forces(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                const Model& model, const Energies& energies);
 
 /// Difference between a coarser level's state and the finer state restricted to its mesh. It
 /// predicts the coarser level's next state, so single precision is enough.
@@ -157,6 +158,8 @@ class NestedShell {
   /// The current state as a point of the path.
   NestedPathPoint point() const;
   const LevelPlan& plan() const { return plan_; }
+  /// From now on a path continues whatever its error estimate is: its end is never `too_coarse`.
+  void allow_any_error() { plan_.allowed_mm = std::numeric_limits<double>::infinity(); }
   int levels() const { return int(levels_.size()); }
   int last() const { return levels() - 1; }  ///< index of the finest level
   /// Whether positions of the current state are extrapolated.

@@ -39,7 +39,7 @@ TEST_CASE("where only finer meshes have the events of a path, the edited shell i
           "[standard]") {
   // a shell that snaps twice and is confirmed on 64 edges per segment; four edges have another end
   preset::Preset preset = shipped("curve_ellipse");
-  preset.movie.frames = 1;
+  preset.movie.frames = 2;
   CHECK(apart(EditedShell(preset), end_of_run(preset)) < 1e-4);
 }
 
