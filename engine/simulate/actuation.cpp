@@ -154,7 +154,7 @@ bool rests_flat(const Scene& scene) {
 }
 
 Caption caption_of(const Scene& scene) {
-  return {at_progress, [](std::size_t, double t) { return progress_at(t); },
+  return {[](std::size_t, double t) { return progress_at(t); },
           [&scene](record::Frame& frame, double, double progress) {
             frame.actuation = progress;
             frame.boundary_radius_mm = scene.radius_at(progress);
@@ -176,6 +176,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
   const double started = seconds_now();
   TRY(simulation, Simulation::open(scene, plan, context));
   EquilibriumPath path{std::move(*simulation)};
+  path.at = at_progress;
   path.seconds_setup = seconds_now() - started;
   const auto certified = [](const Result<Report>& first, const char* which) -> Result<void> {
     if (!first) return tl::unexpected<Error>(first.error());
@@ -202,7 +203,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     follow_from_flat(path, *start, parameter_at(to), watch);
   }
   if (watch.cancelled()) return stopped();
-  set_limit(path, at_progress);
+  set_limit(path);
   return path;
 }
 
@@ -232,7 +233,7 @@ Result<EquilibriumPath> converged_actuation(const std::shared_ptr<const Scene>& 
         return follow_actuation(scene, plan, inner, to, w, context);
       },
       watch);
-  if (path) set_limit(*path, at_progress);
+  if (path) set_limit(*path);
   return path;
 }
 
@@ -242,7 +243,7 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
   const bool inner = std::ranges::any_of(progress, [](double p) { return p > 0 && p < 1; });
   auto path = converged_actuation(scene, inner, progress.back(), watch, context);
   if (!path) return path;
-  path->contacts = contact_events(*path, at_progress);
+  path->contacts = contact_events(*path);
   TRY(layout, layout_of(path->simulation));
   TRY_DO(sink.begin(std::move(*layout)));
   PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());

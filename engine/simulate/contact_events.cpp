@@ -121,7 +121,8 @@ struct Shown {
 
 /// Finds where closed rods pass through themselves, by their linking numbers. No state on the path
 /// may show such a contact, if a snap leads past it.
-std::vector<ContactEvent> self_passages(const EquilibriumPath& path, const At& at) {
+std::vector<ContactEvent> self_passages(const EquilibriumPath& path) {
+  const At& at = path.at;
   const NestedShell& shell = path.simulation.shell();
   const Model& model = shell.model();
   const Scene& scene = path.simulation.scene();
@@ -199,10 +200,11 @@ std::string text_of(const record::Contact& contact, const Footprint& footprint) 
   return fmt::format("{} at ({:.1f}, {:.1f}, {:.1f}) mm", parts(), at.x(), at.y(), at.z());
 }
 
-std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& at) {
+std::vector<ContactEvent> contact_events(const EquilibriumPath& path) {
   const NestedShell& shell = path.simulation.shell();
   const Scene& scene = path.simulation.scene();
-  std::vector<ContactEvent> events = self_passages(path, at);
+  const At& at = path.at;
+  std::vector<ContactEvent> events = self_passages(path);
   std::optional<record::ContactSearch> search;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];

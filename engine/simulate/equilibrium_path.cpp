@@ -232,7 +232,14 @@ std::string branch_losses(std::span<const PathSegment> segments, const At& at, b
   return losses;
 }
 
-void set_limit(EquilibriumPath& path, const At& at) {
+std::string at_parameter(double t, std::optional<double> error) {
+  auto text = fmt::format("at path parameter {:.3f}", t);
+  if (error) text += fmt::format(" ± {:.1g}", *error);
+  return text;
+}
+
+void set_limit(EquilibriumPath& path) {
+  const At& at = path.at;
   path.limit = record::Limit::none;
   path.limit_reason.clear();
   std::string reported;

@@ -42,6 +42,13 @@ struct ContactEvent {
   std::string text;         ///< which parts touch, where in space and where on the path
 };
 
+/// Writes a path parameter in the terms of the experiment, "at progress 0.4312", with its error if
+/// one is known.
+using At = std::function<std::string(double t, std::optional<double> error)>;
+
+/// "at path parameter 0.1234", whatever the experiment.
+std::string at_parameter(double t, std::optional<double> error);
+
 /// A simulation with the segments of the path that were followed in it. The functions
 /// `run_actuation`, `run_indentation` and `run_steps` fill it.
 struct EquilibriumPath {
@@ -50,6 +57,7 @@ struct EquilibriumPath {
   /// The segments in the order in which they were followed.
   std::vector<PathSegment> segments = {};
   std::vector<PathSegment> earlier = {};  ///< for a push: segments of the actuation before it
+  At at = at_parameter;                   ///< how texts name a position on `segments`
   LevelPlan meshes = {};                  ///< mesh levels on which the path was followed
   bool single_motion = true;  ///< whether all segments belong to the current motion of `simulation`
   /// Time to build the meshes and the first state, s.
@@ -120,10 +128,6 @@ struct CertifiedSample {
 /// path do not change. Outcomes as of Simulation::sample().
 CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, const Watch& watch);
 
-/// Writes a path parameter in the terms of the experiment, "at progress 0.4312", with its error if
-/// one is known.
-using At = std::function<std::string(double t, std::optional<double> error)>;
-
 /// Text on the limit that a path met which ended as `locked`: that of the strain, or that of the
 /// stiffness of a push.
 std::string text_of_locking(double largest_strain, double max_strain);
@@ -139,10 +143,10 @@ std::string branch_losses(std::span<const PathSegment> segments, const At& at, b
 /// Sets `limit` and `limit_reason` from how the segments ended: the first that ended before its
 /// requested end, else the snaps. Switching to a branch is no limit; the sentence reports where it
 /// happened.
-void set_limit(EquilibriumPath& path, const At& at);
+void set_limit(EquilibriumPath& path);
 
 /// Computes where parts begin to touch and where they separate. Between load steps of one branch
 /// the state is interpolated by the cubic through both.
-std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& at);
+std::vector<ContactEvent> contact_events(const EquilibriumPath& path);
 
 }  // namespace gridshell::simulate

@@ -66,7 +66,8 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
 
 /// Why the push stopped or which events it passed, in the terms of a push: the first snap, or the
 /// segment that ended; empty if the common text applies.
-std::string reason_of(PushedShell& pushed, const At& at, const Watch& watch) {
+std::string reason_of(PushedShell& pushed, const Watch& watch) {
+  const At& at = pushed.at;
   const Scene& scene = pushed.simulation.scene();
   if (pushed.limit == record::Limit::snap)
     for (const PathSegment& segment : pushed.segments)
@@ -89,10 +90,9 @@ std::string reason_of(PushedShell& pushed, const At& at, const Watch& watch) {
 }
 
 void set_push_limit(PushedShell& pushed, const Watch& watch) {
-  const At at = at_depth(pushed.depth_mm());
   const auto disagreement = std::exchange(pushed.mesh_disagreement, {});
-  set_limit(pushed, at);
-  if (auto reason = reason_of(pushed, at, watch); !reason.empty())
+  set_limit(pushed);
+  if (auto reason = reason_of(pushed, watch); !reason.empty())
     pushed.limit_reason = std::move(reason);
   const auto add = [&](const std::string& more) {
     pushed.limit_reason += (pushed.limit_reason.empty() ? "" : "; ") + more;
@@ -129,8 +129,7 @@ double progress_at_depth(bool unload, std::size_t segment, double t) {
 
 Caption caption_of(const PushedShell& pushed, bool unload) {
   const Simulation& simulation = pushed.simulation;
-  return {at_depth(pushed.depth_mm()),
-          [unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
+  return {[unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
           [&](record::Frame& frame, double t, double) {
             frame.actuation = 1;
             frame.boundary_radius_mm = simulation.scene().radius_end_mm;
@@ -240,6 +239,7 @@ Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
   const auto joints = Eigen::Index(scene->footprint.joints.size());
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   PushedShell pushed{std::move(*actuated), *push, std::move(before)};
+  pushed.at = at_depth(pushed.depth_mm());
   Constraint constraint{push->joint};
   if (requested.lateral == preset::Lateral::free)
     constraint.directions = push->displacement.normalized();
@@ -264,7 +264,7 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
       watch);
   if (!kept) return tl::unexpected<Error>(kept.error());
   set_push_limit(*kept, watch);
-  kept->contacts = contact_events(*kept, at_depth(kept->depth_mm()));
+  kept->contacts = contact_events(*kept);
   TRY(layout, layout_of(kept->simulation));
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
   TRY_DO(sink.begin(std::move(*layout)));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/try.h"
+#include "engine/simulate/actuation.h"
 #include "engine/simulate/expected_cost.h"
 
 namespace gridshell::simulate {
@@ -20,22 +21,22 @@ bool near_event(const PathSegment& segment, double t) {
   });
 }
 
-std::optional<std::string> not_confirmed(const PathSegment& segment, int companion) {
+std::optional<std::string> not_confirmed(const PathSegment& segment, int companion, const At& at) {
   for (const Event& event : segment.report.events)
     if (!event.confirmed)
-      return fmt::format("{} edges per segment do not have the event at path parameter {:.3f}",
-                         companion, event.t);
+      return fmt::format("{} edges per segment do not have the event {}", companion,
+                         at(event.t, {}));
   for (const LoadStep& step : segment.load_steps) {
     if (!step.stability_confirmed && !near_event(segment, step.point.t))
       return fmt::format(
-          "stability at path parameter {:.3f}: the lowest stiffness there is smaller than its "
+          "stability {}: the lowest stiffness there is smaller than its "
           "difference from that of {} edges per segment",
-          step.point.t, companion);
+          at(step.point.t, {}), companion);
     const bool last = &step == &segment.load_steps.back();
     if (std::isnan(step.certificate.error_estimate_mm) && step.certificate.stable() &&
         (last || !near_event(segment, step.point.t)))
-      return fmt::format("{} edges per segment have no such state at path parameter {:.3f}",
-                         companion, step.point.t);
+      return fmt::format("{} edges per segment have no such state {}", companion,
+                         at(step.point.t, {}));
   }
   return std::nullopt;
 }
@@ -60,7 +61,7 @@ std::string where_worst(const EquilibriumPath& path) {
   const double t = worst->point.t;
   const bool near = std::ranges::any_of(
       path.segments, [t](const PathSegment& segment) { return near_event(segment, t); });
-  return fmt::format(", at path parameter {:.3f}{}", t,
+  return fmt::format(", {}{}", path.at(t, {}),
                      near ? ", next to an event, where a state moves most" : "");
 }
 
@@ -93,9 +94,11 @@ LevelPlan initial_levels(const Scene& scene) {
 std::optional<std::string> not_confirmed(const EquilibriumPath& path) {
   const auto& edges = path.meshes.edges_per_segment;
   if (edges.size() < 2) return std::nullopt;
-  for (const auto segments : {&path.earlier, &path.segments})
-    for (const PathSegment& segment : *segments)
-      if (auto found = not_confirmed(segment, edges[edges.size() - 2])) return found;
+  const int companion = edges[edges.size() - 2];
+  for (const PathSegment& segment : path.earlier)
+    if (auto found = not_confirmed(segment, companion, at_progress)) return found;
+  for (const PathSegment& segment : path.segments)
+    if (auto found = not_confirmed(segment, companion, path.at)) return found;
   return std::nullopt;
 }
 

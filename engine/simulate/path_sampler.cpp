@@ -67,11 +67,10 @@ Result<bool> PathSampler::at(const PathSample& sample) {
   if (watch_.cancelled()) return stopped();
   if (report.end != Outcome::reached) {
     if (within_snap(path_.segments[sample.segment], sample.t)) {
-      path_.limit_reason += "; there is no state to show " + caption_.at(sample.t, {});
+      path_.limit_reason += "; there is no state to show " + path_.at(sample.t, {});
     } else if (path_.limit == record::Limit::none || path_.limit == record::Limit::snap) {
       path_.limit = record::Limit::branch_lost;
-      path_.limit_reason =
-          fmt::format("{} {}", words_of(report.end).what, caption_.at(sample.t, {}));
+      path_.limit_reason = fmt::format("{} {}", words_of(report.end).what, path_.at(sample.t, {}));
     }
     return false;
   }
@@ -147,7 +146,7 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
       if (!event.to || event.jump != jump) continue;
       const double seen = segment.back ? event.t : *event.to;
       if (sign * (seen - before) <= 0 || sign * (past - seen) < 0) continue;
-      passed += (passed.empty() ? "" : " and ") + caption_.at(event.t, {});
+      passed += (passed.empty() ? "" : " and ") + path_.at(event.t, {});
     }
     if (!passed.empty())
       text += (text.empty() ? "" : "; ") + std::string(jump ? "snap " : "branches ") + passed;

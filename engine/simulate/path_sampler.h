@@ -16,7 +16,6 @@ class FramesBetween;
 
 /// The values of a frame that an experiment adds to the state.
 struct Caption {
-  At at;
   /// Progress of the experiment at path parameter t of a segment, from 0 to 1.
   std::function<double(std::size_t segment, double t)> progress;
   /// Writes the position of boundary and push at path parameter t.

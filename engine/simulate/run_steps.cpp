@@ -57,6 +57,12 @@ void close(PathSegment& segment, const Simulation& simulation) {
   segment.from = segment.to = segment.end();
 }
 
+std::string at_fraction(double t, std::optional<double> error) {
+  auto text = fmt::format("at {:.4f}", t);
+  if (error) text += fmt::format(" ± {:.1g}", *error);
+  return text + " of its path";
+}
+
 /// The shell before the steps. The bolts of the first step fix the joints as drawn if it opens the
 /// joints of a network that has no regular equilibrium without them, as naturally straight strips
 /// that close into a bundle, or if it prescribes the mean angle; `reported` then says so.
@@ -91,6 +97,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
   work.single_motion = false;
+  work.at = at_fraction;
   Simulation& simulation = work.simulation;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const StepKind kind = steps[k].kind;
@@ -116,12 +123,6 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     if (segment.report.end != Outcome::reached) break;
   }
   return work;
-}
-
-std::string at_fraction(double t, std::optional<double> error) {
-  auto text = fmt::format("at {:.4f}", t);
-  if (error) text += fmt::format(" ± {:.1g}", *error);
-  return text + " of its path";
 }
 
 /// Passes the frames of all steps to a sink.
@@ -189,8 +190,7 @@ class Show {
   }
 
   Caption caption() {
-    return {at_fraction,
-            {},
+    return {{},
             [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
             [this](record::Frame& frame, double, bool) { work_.simulation.put_push(frame); }};
   }
@@ -232,7 +232,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
 
 /// Sets the limit of the path and names its step in front of the reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
-  set_limit(work, at_fraction);
+  set_limit(work);
   if (!work.refused.empty()) {
     work.limit = record::Limit::no_equilibrium;
     work.limit_reason = work.refused;
@@ -344,7 +344,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
   name_step_of_limit(*work, steps);
-  work->contacts = contact_events(*work, at_fraction);
+  work->contacts = contact_events(*work);
   for (ContactEvent& event : work->contacts)
     event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
                              event.text);

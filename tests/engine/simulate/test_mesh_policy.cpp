@@ -172,7 +172,7 @@ TEST_CASE("where the lowest stiffness nearly vanishes a finer mesh decides wheth
   CHECK(chosen.summary.edges_per_segment > 8);
   p.accuracy.edges_per_segment = 8;
   const auto coarse = run(p);
-  CHECK(coarse.summary.doubt.find("stability at path parameter 0.19") != std::string::npos);
+  CHECK(coarse.summary.doubt.find("stability at progress 0.03") != std::string::npos);
   CHECK(distance(coarse, chosen) > 1);
   p.accuracy.edges_per_segment = 24;
   CHECK(distance(run(p), chosen) < 0.05);
