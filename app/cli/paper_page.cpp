@@ -215,6 +215,7 @@ class PageMaker {
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
                             run.frames.back(), {-0.01, 0.07}, page_font);
+      plot.title = named_pushes_[k].name + "\n" + plot.title;
       if (k == 0) page.add_legend({5, 145.5, 171, 5}, plot);
       plot.legend = render::LegendPosition::none;
       const double width = 174.0 / double(named_pushes_.size());
