@@ -275,10 +275,11 @@ void put_braces(const record::Layout& layout, const record::Frame& frame, double
 
 void put_loads(const record::Layout& layout, const record::Frame& frame, double largest_N,
                double thin_mm, Drawing& drawing) {
-  const double width =
-      std::max((loads_all_alike(frame) ? 0.04 : 0.02) * longest_force(layout), 1.5 * thin_mm);
+  const bool area = loads_all_alike(frame);
+  const double width = std::max((area ? 0.04 : 0.02) * longest_force(layout), 1.5 * thin_mm);
+  // shadows of many arrows would look like parts of the shell
   for (const LoadArrow& arrow : force_arrows(layout, frame, largest_N))
-    drawing.arrows.push_back({arrow.from, arrow.to, width, force_ink});
+    drawing.arrows.push_back({arrow.from, arrow.to, width, force_ink, !area});
 }
 
 std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N) {
@@ -290,7 +291,11 @@ std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N
 std::string load_caption(const record::Frame& frame) {
   if (frame.loads_N.cols() == 0) return "";
   const auto sum = [](const Eigen::Matrix3Xd& of) { return force_text(of.rowwise().sum().norm()); };
-  const std::string loads = "loads " + sum(frame.loads_N);
+  std::string loads = "loads " + sum(frame.loads_N);
+  if (loads_all_alike(frame)) return loads + ", distributed (arrows not to scale)";
+  if (const Eigen::Matrix3Xd small = small_loads(frame); small.cols() > 0)
+    loads += fmt::format(" ({:.0f} % distributed)",
+                         100 * small.rowwise().sum().norm() / frame.loads_N.rowwise().sum().norm());
   return frame.reactions_N.cols() == 0 ? loads : loads + ", reactions " + sum(frame.reactions_N);
 }
 

@@ -97,3 +97,11 @@ TEST_CASE("a support on a spring is where its spring pulls from, with the spring
   CHECK((spring.rightCols(1) - support).norm() < 1e-9);
   CHECK(spring.cols() > 6);
 }
+
+TEST_CASE("the caption of loads names what is distributed") {
+  record::Frame weighed;
+  weighed.loads_N = Eigen::Vector3d(0, 0, -1).replicate(1, 30);
+  CHECK(load_caption(weighed) == "loads 30 N, distributed (arrows not to scale)");
+  weighed.loads_N(2, 0) = -29;
+  CHECK(load_caption(weighed) == "loads 58 N (50 % distributed)");
+}
