@@ -88,3 +88,13 @@ TEST_CASE("cells are coloured by their deviation from the net") {
   CHECK(drawing.node_colours.empty());
   CHECK(drawing.cell_colours.front().r < drawing.cell_colours.back().r);
 }
+
+TEST_CASE("rods with colours have no joints on them, except of a colour that the user chose") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  MovieStyle style, by_K;
+  style.colour_by = ColourBy::displacement;
+  CHECK(Stage(run, style).drawing(run.frames[2]).joint_diameter_mm == 0);
+  CHECK(Stage(run, by_K).drawing(run.frames[2]).joint_diameter_mm > 0);
+  style.look.joint_chosen = true;
+  CHECK(Stage(run, style).drawing(run.frames[2]).joint_diameter_mm > 0);
+}
