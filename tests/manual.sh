@@ -5,6 +5,7 @@
 #   ```text           lines of what the commands before printed; … is for what differs from run to run
 #   ```toml, ```python, ... whose first line is `# NAME`, or ```json NAME: the file NAME
 #   ```python         without a name: a script; ```bibtex and ```math are not run
+#   <!-- FILE -->     over a picture: the picture is the FILE that the commands made; with DRAW=1 it becomes that
 #
 # PYTHONPATH leads to the Python module; scripts whose imports are missing are left out, with a message.
 set -u
@@ -108,6 +109,13 @@ $(cat "$out")" ;;
       *) fail "$page: what is ${block##*.}? a file has its name in its first line" ;;
     esac
   done
+  awk '/^<!-- .* -->$/ { made = $2; next } made && match($0, /\]\(.*\)$/) { print made, substr($0, RSTART + 2, RLENGTH - 3) }
+    { made = "" }' "$source/$page" >"$scratch/pictures"
+  while read -r made picture; do
+    picture=$(dirname "$source/$page")/$picture
+    [ "${DRAW:-0}" = 0 ] || cp "$folder/$made" "$picture" || status=1
+    "$program" compare "$picture" "$folder/$made" >"$out" 2>&1 || fail "$page: $(cat "$out")"
+  done <"$scratch/pictures"
 done
 echo "$ran blocks of $# pages"
 exit $status

@@ -246,7 +246,7 @@ strings() {
 }
 
 # words that users write in presets, and names of libraries, which code repeats
-of_others='(StepKind|Do|K)::hold|case hold:|Lateral::held|hold_first_s|hold_s|OnContact::tell|(M::|movie[.]|bool )beside'
+of_others='(StepKind|Do|K)::hold|case hold:|Lateral::held|hold_first_s|hold_s|OnContact::tell|(M::|movie[.])beside|bool beside = true'
 of_others="$of_others|enum class (StepKind|Lateral|OnContact) [{].*|holds_alternative|reverseInPlace"
 
 # identifiers that have a word of the third column of words.txt as a part, by _ or capitals

@@ -140,6 +140,15 @@ if(GRIDSHELL_PICTURES)
     PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
 endif()
 
+# The pictures of README and gallery, drawn again.
+if(GRIDSHELL_PICTURES)
+  set(drawn ${PROJECT_BINARY_DIR}/pictures)
+  add_test(NAME "pictures of README and gallery are those of the program"
+    COMMAND sh -c "rm -rf ${drawn} && TO=${drawn} ${PROJECT_SOURCE_DIR}/presets/pictures/draw.sh $<TARGET_FILE:gridshell> s1_actuation s2_indentation cards && $<TARGET_FILE:gridshell> compare ${drawn} ${PROJECT_SOURCE_DIR}/presets/pictures --selected")
+  set_tests_properties("pictures of README and gallery are those of the program"
+    PROPERTIES LABELS full TIMEOUT 3600)
+endif()
+
 # Shells against CalculiX where it is installed.
 if(GRIDSHELL_PICTURES)
   add_test(NAME "CalculiX gives the same shells, displacements and frequencies"

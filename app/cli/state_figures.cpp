@@ -187,6 +187,8 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
     return render::write_plot(fs::path(stem) += suffix, titled, style.print);
   };
   render::MovieStyle stills = style;
+  // the states are no motion, from which the first one would remain as a ghost
+  stills.look.ghost = false;
   if (which.size() < states.rows.size() && !style.title.empty())
     stills.title += fmt::format(" ({} of {} states)", which.size(), states.rows.size());
   TRY_DO(render::write_stills(states_alone(one.trajectory, which), stills, {}, renderer, stem,

@@ -124,6 +124,8 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
   const double width = above.width / (3 + wider), dpi = one.preset.figure.dpi,
                height = above.height - caption / points_per_mm;
   style.captions = style.inset = style.legends = false;
+  // the states are no motion, from which the first one would remain as a ghost
+  style.look.ghost = false;
   style.turn_deg = 0;
   const record::Trajectory run = states_alone(one.trajectory, which);
   const render::Stage stage(run, at_size(style, width, height, dpi));

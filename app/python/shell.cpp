@@ -40,20 +40,20 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 Result<Done> Shell::form(double progress, const Watch& watch) {
   if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // the current state
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
-  auto course = simulate::converged_actuation(scene_, false, progress, watch);
-  if (!course) return tl::unexpected<Error>(course.error());
-  session_ = std::move(course->simulation);
+  auto path = simulate::converged_actuation(scene_, false, progress, watch);
+  if (!path) return tl::unexpected<Error>(path.error());
+  session_ = std::move(path->simulation);
   formed_ = true;
-  const simulate::PathSegment* last = course->segments.empty() ? nullptr : &course->segments.back();
+  const simulate::PathSegment* last = path->segments.empty() ? nullptr : &path->segments.back();
   if (last && !last->back && last->report.end != Outcome::reached)
-    return fail(Fault::no_equilibrium, "actuate: " + course->limit_reason);
+    return fail(Fault::no_equilibrium, "actuate: " + path->limit_reason);
   Done done;
-  for (const simulate::PathSegment& segment : course->segments)
+  for (const simulate::PathSegment& segment : path->segments)
     done.report.events.insert(done.report.events.end(), segment.report.events.begin(),
                               segment.report.events.end());
   done.report.certificate = session_->certificate();
   done.report.effort = session_->effort();
-  done.reported = course->limit_reason;
+  done.reported = path->limit_reason;
   return done;
 }
 

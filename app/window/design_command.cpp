@@ -13,18 +13,18 @@
 namespace gridshell::window {
 namespace {
 
-std::string text_of_design(const DesignProgress& course) {
-  const double percent = 100 / course.length_scale_mm;
-  const DesignPoint &first = course.points.front(), &last = course.points.back();
+std::string text_of_design(const DesignProgress& design) {
+  const double percent = 100 / design.length_scale_mm;
+  const DesignPoint &first = design.points.front(), &last = design.points.back();
   std::string message =
       fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
-                  course.stopped ? "stopped" : "designed", course.iterations,
-                  course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
-  if (course.inverse.round_mm > 0 && !course.stopped)
-    message += course.rounded_max_mm
-                   ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
-                                 percent * *course.rounded_max_mm)
-                   : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
+                  design.stopped ? "stopped" : "designed", design.iterations,
+                  design.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
+  if (design.inverse.round_mm > 0 && !design.stopped)
+    message += design.rounded_max_mm
+                   ? fmt::format(", rounded to {:g} mm {:.3f} %", design.inverse.round_mm,
+                                 percent * *design.rounded_max_mm)
+                   : fmt::format("; rounded to {:g} mm it is lost", design.inverse.round_mm);
   return message;
 }
 
@@ -69,9 +69,9 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
   const std::shared_ptr<const Scene>& scene = *made;
   TRY(target, design_target(*scene, preset.inverse.target));
 
-  DesignProgress course;
-  course.inverse = preset.inverse;
-  course.length_scale_mm = scene->length_scale_mm;
+  DesignProgress design;
+  design.inverse = preset.inverse;
+  design.length_scale_mm = scene->length_scale_mm;
   preset::Preset designed = preset;
   State state;
   const NestedShell& shell = session_->shell();
@@ -85,21 +85,21 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
         state = now.state;
         designed.ends.table = now.ends;
         if (varies_rods(preset.inverse)) designed.rod_table = now.rods;
-        show_design_step(*scene, now, course);
+        show_design_step(*scene, now, design);
       });
   view_.layout.reset();
   if (!ended) return tl::unexpected<Error>(ended.error());
-  course.under_way = false;
-  course.stopped = ended->stopped;
-  course.iterations = ended->iterations;
-  course.rounded_max_mm = ended->rounded_max_mm;
-  if (course.points.size() < 2) {
-    if (course.stopped) return stopped();
+  design.under_way = false;
+  design.stopped = ended->stopped;
+  design.iterations = ended->iterations;
+  design.rounded_max_mm = ended->rounded_max_mm;
+  if (design.points.size() < 2) {
+    if (design.stopped) return stopped();
     return fail(Fault::no_equilibrium, "no step brings the shell nearer to its surface");
   }
   TRY_DO(show_designed(designed, state));
-  view_.message = text_of_design(course);
-  now_.design = std::make_shared<const DesignProgress>(std::move(course));
+  view_.message = text_of_design(design);
+  now_.design = std::make_shared<const DesignProgress>(std::move(design));
   now_.target = std::make_shared<DesignTarget>(std::move(*target));
   return {};
 }
@@ -118,17 +118,17 @@ Result<void> EditSession::show_designed(const preset::Preset& designed, const St
 
 /// Shows a step while the next one is computed.
 void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
-                                   DesignProgress& course) {
+                                   DesignProgress& design) {
   ShellView& s = view_;
-  course.iterations = now.step.iteration;
-  course.points.push_back(point_of(now));
+  design.iterations = now.step.iteration;
+  design.points.push_back(point_of(now));
   if (!s.layout) {
     auto layout = simulate::layout_of(scene, now.mesh);
     if (!layout) return;
     layout->flat_nodes = drawn_nodes(now.mesh, scene.flat).leftCols(now.mesh.rod_nodes());
     s.layout = std::make_shared<const record::Layout>(std::move(*layout));
   }
-  if (varies_rods(course.inverse)) {
+  if (varies_rods(design.inverse)) {
     auto layout = std::make_shared<record::Layout>(*s.layout);
     const Eigen::VectorXd& diameters = now.shell_ends.diameter;
     layout->diameters_mm.assign(diameters.begin(), diameters.end());
@@ -147,7 +147,7 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   s.axial_N = record::axial_force_of_nodes_N(*s.layout, s.frame);
   s.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*s.layout, s.frame);
   update_deviation(now.distances_mm);
-  s.design = std::make_shared<const DesignProgress>(course);
+  s.design = std::make_shared<const DesignProgress>(design);
   ++s.equilibria;
   if (listener_) listener_(s);
 }

@@ -144,18 +144,18 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   // on the meshes of a run, so that both reach the same states; while a number is dragged on one
   // mesh, which does not know whether finer ones have its events
   const LevelPlan one{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
-  TRY(course, passing_ ? simulate::follow_actuation(scene, one, false, 1, watch)
-                       : simulate::converged_actuation(scene, false, 1, watch));
+  TRY(path, passing_ ? simulate::follow_actuation(scene, one, false, 1, watch)
+                     : simulate::converged_actuation(scene, false, 1, watch));
   std::vector<PathMark> marks;
-  for (const simulate::PathSegment& segment : course->segments)
+  for (const simulate::PathSegment& segment : path->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
   const bool snapped = std::ranges::any_of(
-      course->segments, [](const auto& segment) { return !segment.report.events.empty(); });
-  set_shell(preset, scene, std::move(course->simulation));
+      path->segments, [](const auto& segment) { return !segment.report.events.empty(); });
+  set_shell(preset, scene, std::move(path->simulation));
   now_.marks = std::move(marks);
   now_.snapped = snapped;
   now_.first.reset();
-  view_.message = view_.event = course->limit_reason;
+  view_.message = view_.event = path->limit_reason;
   if (!preset.step.empty()) refine(watch);  // as a run does before its steps
   for (const preset::Step& step : preset.step) {
     // do_step() compares with the state in the view

@@ -123,7 +123,7 @@ class EditSession {
                  Simulation session);
   Result<void> set_preset_push();
   Result<void> show_designed(const preset::Preset& designed, const State& state);
-  void show_design_step(const Scene& scene, const CertifiedStep& step, DesignProgress& course);
+  void show_design_step(const Scene& scene, const CertifiedStep& step, DesignProgress& design);
   void accept_design();
   Result<void> change_rods(const preset::Preset& preset, const Watch& watch);
   preset::Preset with_boundary_end(preset::Preset preset) const;

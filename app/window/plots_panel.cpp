@@ -124,8 +124,9 @@ class PlotBox {
       while (from < end && !known(from)) ++from;
       std::size_t to = from;
       while (to < end && known(to)) ++to;
-      if (to > from)
-        list_.AddPolyline(points.data() + from, int(to - from), shade, 0, panel_.px(1.4));
+      // one by one: a polyline becomes thin where it turns back on itself
+      for (std::size_t k = from; k + 1 < to; ++k)
+        list_.AddLine(points[k], points[k + 1], shade, panel_.px(1.4));
       if (to == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), shade);
       from = to;
     }
@@ -266,7 +267,7 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
 }
 
 Curve bins_of(const ShellView& shell) {
-  Curve curve{"integrated curvature K□ (rad)", "x/L", "no cells", {}, {}, true};
+  Curve curve{"mean K□ of cells (rad)", "x/L", "no cells", {}, {}, true};
   const auto& bins = shell.frame.K_bins;
   for (Eigen::Index k = 0; shell.any() && k < bins.rows(); ++k) {
     if (!std::isfinite(bins(k, 0))) continue;

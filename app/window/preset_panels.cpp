@@ -187,14 +187,14 @@ void buttons(const Panel& panel) {
   panel.button("design_put_back", "Put back");
 }
 
-void progress(const Panel& panel, const DesignProgress& course) {
-  const double percent = 100 / course.length_scale_mm;
-  const DesignPoint &first = course.points.front(), &now = course.points.back();
-  const char* how = course.under_way ? "running"
-                    : course.kept    ? "kept"
-                    : course.stopped ? "stopped: keep or put back"
+void progress(const Panel& panel, const DesignProgress& design) {
+  const double percent = 100 / design.length_scale_mm;
+  const DesignPoint &first = design.points.front(), &now = design.points.back();
+  const char* how = design.under_way ? "running"
+                    : design.kept    ? "kept"
+                    : design.stopped ? "stopped: keep or put back"
                                      : "done: keep or put back";
-  ImGui::Text("iteration %d, %s", course.iterations, how);
+  ImGui::Text("iteration %d, %s", design.iterations, how);
   ImGui::Text("largest %.3f %% of ρ, %.3g mm", percent * now.max_mm, now.max_mm);
   ImGui::Text("mean %.3f %% of ρ, %.3g mm", percent * now.mean_mm, now.mean_mm);
   ImGui::Text("moved %.2f mm, eigenvalue x %.3g", now.largest_move_mm,
@@ -206,11 +206,11 @@ void progress(const Panel& panel, const DesignProgress& course) {
     ImGui::Text("rods %.3f to %.3f mm", now.thinnest_mm, now.thickest_mm);
 }
 
-void plot(const Panel& panel, const DesignProgress& course) {
+void plot(const Panel& panel, const DesignProgress& design) {
   Curve curve{"largest, mean (grey), % of ρ", "steps", "", {}, {}};
   curve.logarithmic = true;
-  const double percent = 100 / course.length_scale_mm;
-  for (const DesignPoint& point : course.points) {
+  const double percent = 100 / design.length_scale_mm;
+  for (const DesignPoint& point : design.points) {
     curve.x.push_back(float(point.iteration));
     curve.y.push_back(float(percent * point.max_mm));
     curve.second.push_back(float(percent * point.mean_mm));

@@ -186,11 +186,11 @@ std::string certificate_of(const ShellView& shell, bool timed, bool narrow) {
                      took);
 }
 
-std::string design_progress(const DesignProgress& course) {
-  const double percent = 100 / course.length_scale_mm;
-  const DesignPoint& now = course.points.back();
+std::string design_progress(const DesignProgress& design) {
+  const double percent = 100 / design.length_scale_mm;
+  const DesignPoint& now = design.points.back();
   return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
-                     course.iterations, percent * now.max_mm, percent * now.mean_mm);
+                     design.iterations, percent * now.max_mm, percent * now.mean_mm);
 }
 
 /// Writes the progress of the movie over the last message.

@@ -200,11 +200,11 @@ void print_state(const ViewerState& viewer) {
             {"undo_steps", sight.undo_steps},
             {"redo_steps", sight.redo_steps}};
   if (sight.design) {
-    const DesignProgress& course = *sight.design;
+    const DesignProgress& design = *sight.design;
     line["design"] = {
-        {"steps", int(course.points.size()) - 1},        {"iterations", course.iterations},
-        {"max_before_mm", course.points.front().max_mm}, {"max_mm", course.points.back().max_mm},
-        {"mean_mm", course.points.back().mean_mm},       {"kept", course.kept}};
+        {"steps", int(design.points.size()) - 1},        {"iterations", design.iterations},
+        {"max_before_mm", design.points.front().max_mm}, {"max_mm", design.points.back().max_mm},
+        {"mean_mm", design.points.back().mean_mm},       {"kept", design.kept}};
   }
   line["message"] = viewer.message;
   fmt::print("{}\n", line_of(line));

@@ -111,12 +111,12 @@ DesignedState described(DesignShell& shell, DesignTarget& target) {
 /// The shell of the scene before the design, on the mesh of the optimisation.
 Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& scene,
                                            const Watch& watch) {
-  TRY(course, simulate::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
-  const Simulation& simulation = course->simulation;
+  TRY(path, simulate::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
+  const Simulation& simulation = path->simulation;
   if (simulation.progress() != 1)
     return fail(
         Fault::no_equilibrium,
-        "the shell does not reach its end before anything is changed: " + course->limit_reason);
+        "the shell does not reach its end before anything is changed: " + path->limit_reason);
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   return DesignShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),

@@ -190,7 +190,7 @@ Result<ChordGrid> ChordGrid::make(const Surface& surface, const NetPose& pose, d
   grid.rows_ = grid.before_v_ + int(axes[1].points.size());
   const std::size_t count = std::size_t(grid.columns_) * std::size_t(grid.rows_);
   grid.points_.assign(count, Eigen::Vector3d::Zero());
-  grid.nodes_.assign(count, Node::unasked);
+  grid.nodes_.assign(count, Node::uncomputed);
   grid.put_axis(axes[0], 1, 0);
   grid.put_axis(axes[1], 0, 1);
   grid.put_axis(axes[2], -1, 0);
@@ -225,7 +225,7 @@ void ChordGrid::fill(const Surface& surface, const NetPose& pose, int margin, in
       // nodes past a folded or lost node are not computed
       for (const Node one : {node(a - sign_u, b), node(a, b - sign_v)})
         if (one == Node::folded || one == Node::lost) state = one;
-      if (state != Node::unasked || least >= margin || node(a - sign_u, b) != Node::known ||
+      if (state != Node::uncomputed || least >= margin || node(a - sign_u, b) != Node::known ||
           node(a, b - sign_v) != Node::known)
         continue;
       const Eigen::Vector3d &A = at(a - sign_u, b), &B = at(a, b - sign_v);

@@ -49,10 +49,10 @@ NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord);
 class ChordGrid {
  public:
   enum class Node : char {
-    unasked,  ///< not computed: more than `margin` nodes outside the part that is used
-    known,    ///< computed
-    folded,   ///< rods are close to parallel: the sine of their angle is below least_sine
-    lost      ///< the surface has no such point here or at a node towards the axes
+    uncomputed,  ///< not computed: more than `margin` nodes outside the part that is used
+    known,       ///< computed
+    folded,      ///< rods are close to parallel: the sine of their angle is below least_sine
+    lost         ///< the surface has no such point here or at a node towards the axes
   };
   static constexpr double least_sine = 0.12;
 
@@ -70,7 +70,7 @@ class ChordGrid {
   bool has(int i, int j) const {
     return i >= first_u() && i <= last_u() && j >= first_v() && j <= last_v();
   }
-  Node node(int i, int j) const { return has(i, j) ? nodes_[index(i, j)] : Node::unasked; }
+  Node node(int i, int j) const { return has(i, j) ? nodes_[index(i, j)] : Node::uncomputed; }
   const Eigen::Vector3d& at(int i, int j) const { return points_[index(i, j)]; }
   /// Marks a node as lost.
   void forget(int i, int j) { nodes_[index(i, j)] = Node::lost; }

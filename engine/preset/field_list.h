@@ -189,15 +189,15 @@ class FieldList : AnyFieldList {
   }
 
  private:
-  template <class Asked>
-  static auto ask(const Asked& requested, const Preset& preset, const void* at) {
+  template <class Function>
+  static auto ask(const Function& function, const Preset& preset, const void* at) {
     const auto& one = *static_cast<const Struct*>(at);
-    if constexpr (std::is_invocable_v<Asked, const Preset&, const Struct&>)
-      return std::invoke(requested, preset, one);
-    else if constexpr (std::is_invocable_v<Asked, const Struct&>)
-      return std::invoke(requested, one);
+    if constexpr (std::is_invocable_v<Function, const Preset&, const Struct&>)
+      return std::invoke(function, preset, one);
+    else if constexpr (std::is_invocable_v<Function, const Struct&>)
+      return std::invoke(function, one);
     else
-      return std::invoke(requested, preset);
+      return std::invoke(function, preset);
   }
 
   template <class Kind>

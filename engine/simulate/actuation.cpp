@@ -207,7 +207,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
 }
 
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
-                                               const LevelPlan& plan, std::string_view wanted_for,
+                                               const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch, context);
   if (!actuated) return actuated;
@@ -215,7 +215,7 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
   for (PathSegment& segment : actuated->earlier) segment.free_states();
   if (actuated->too_coarse()) return actuated;
   if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", wanted_for,
+    return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", purpose,
                 actuated->limit_reason,
                 actuated->limit == record::Limit::locking
                     ? "; a larger actuated boundary, or more [limits] max_strain, goes further"

@@ -29,7 +29,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
 /// states. An actuation that ends earlier is an error, no_equilibrium, "there is no actuated shell
 /// `wanted_for`: ..."; one whose mesh is too_coarse() is returned as far as it was followed.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
-                                               const LevelPlan& plan, std::string_view wanted_for,
+                                               const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context = {});
 
 /// The actuation on the coarsest meshes that confirm it (mesh_policy.h): its limit reports what

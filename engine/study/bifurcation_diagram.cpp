@@ -85,23 +85,23 @@ double distance(const Eigen::Matrix3Xd& shape, const std::vector<TracedPoint>& l
 /// Computes the diagram.
 class Diagram {
  public:
-  Diagram(BranchStart& course, const BranchesOptions& options, Watch& watch)
-      : course_(course),
-        shell_(course.session.shell()),
+  Diagram(BranchStart& start, const BranchesOptions& options, Watch& watch)
+      : start_(start),
+        shell_(start.session.shell()),
         level_(shell_.levels() - 1),
         system_(shell_.system(level_)),
         motion_(shell_.motion(level_)),
         joints_(shell_.mesh(level_).joints),
         options_(options),
         watch_(watch) {
-    const Scene& scene = course.session.scene();
+    const Scene& scene = start.session.scene();
     trace_.arc.largest_mm = step_size * scene.length_scale_mm;
     trace_.arc.step_mm = 0.5 * trace_.arc.largest_mm;
     trace_.arc.smallest_mm = 1e-4 * trace_.arc.largest_mm;
     trace_.arc.parameter_mm = max_column_norm(motion_.change);
     trace_.arc.tolerance_mm = 1e-8 * scene.length_scale_mm;
-    trace_.from = course.from;
-    trace_.to = course.to;
+    trace_.from = start.from;
+    trace_.to = start.to;
     trace_.max_strain = scene.max_strain;
     trace_.most_steps = options.most_steps;
   }
@@ -119,8 +119,8 @@ class Diagram {
     const NestedState& begin = shell_.state();
     Branch path;
     for (const double sign : {-1.0, 1.0}) {
-      if (sign < 0 && course_.of_push) continue;
-      if (sign > 0 && begin.t >= course_.to) continue;
+      if (sign < 0 && start_.of_push) continue;
+      if (sign > 0 && begin.t >= start_.to) continue;
       ArcFollower follower(system_, motion_, trace_.arc);
       const auto begun = follower.start(begin.t, begin.levels[std::size_t(level_)], sign, watch_);
       if (begun != Outcome::reached)
@@ -142,7 +142,7 @@ class Diagram {
     auto before = std::ranges::find_if(
         points, [](const TracedPoint& p) { return p.event == BranchEvent::bifurcation; });
     if (before == points.end()) before = points.begin() + std::ptrdiff_t(points.size() / 2);
-    const Scene& scene = course_.session.scene();
+    const Scene& scene = start_.session.scene();
     const Eigen::Matrix2Xd flat =
         scene.flat.all(shell_.mesh(level_).flat.leftCols(joints_)).topRows<2>();
     const double within = symmetric_within * scene.length_scale_mm;
@@ -189,7 +189,7 @@ class Diagram {
           follower.leave(crossing.at, side * mode, step, watch_) != Outcome::reached)
         continue;
       const double t = follower.at().point.t;
-      if (t < course_.from || t > course_.to) return;
+      if (t < start_.from || t > start_.to) return;
       const Eigen::Matrix3Xd& found = follower.at().point.state.x;
       if (distance(found, branches_[parent].points, joints_) < 0.2 * step) continue;
       for (std::size_t k = 0; k < branches_.size(); ++k)
@@ -225,8 +225,8 @@ class Diagram {
     BranchDiagram made;
     made.edges_per_segment = shell_.plan().edges_per_segment.back();
     made.symmetry_order = symmetry_->order();
-    made.original_radius_mm = course_.session.scene().radius_begin_mm;
-    made.of_push = course_.of_push;
+    made.original_radius_mm = start_.session.scene().radius_begin_mm;
+    made.of_push = start_.of_push;
     made.all_followed = all_followed_;
     for (std::size_t k = 0; k < branches_.size(); ++k)
       for (const TracedPoint& point : branches_[k].points)
@@ -235,12 +235,12 @@ class Diagram {
   }
 
   record::BranchPoint point_of(int number, const TracedPoint& point) {
-    const Scene& scene = course_.session.scene();
+    const Scene& scene = start_.session.scene();
     const Branch& branch = branches_[std::size_t(number)];
     record::BranchPoint made;
     made.branch = number;
     made.progress = motion_.progress(point.at.t);
-    if (!course_.of_push) made.boundary_radius_mm = scene.radius_at(made.progress);
+    if (!start_.of_push) made.boundary_radius_mm = scene.radius_at(made.progress);
     const Eigen::Matrix3Xd joints = joints_of(point);
     made.height_mm = joints.row(2).maxCoeff() - scene.flat.origin.z();
     const Eigen::Matrix3Xd broken = symmetry_->broken(joints);
@@ -254,7 +254,7 @@ class Diagram {
     return made;
   }
 
-  BranchStart& course_;
+  BranchStart& start_;
   NestedShell& shell_;
   int level_;
   Linearisation& system_;
@@ -280,17 +280,17 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
         "([accuracy] model)");
   const LevelPlan plan = simulate::initial_levels(*scene);
   TRY_DO(fits_memory(*scene, plan));
-  Result<BranchStart> course = stopped();
+  Result<BranchStart> start = stopped();
   if (preset.indentation.requested())
-    course = simulate::prepare_push(scene, preset.indentation, plan, watch)
-                 .map([](simulate::PushedShell pushed) {
-                   return BranchStart{std::move(pushed.simulation), 0, 1, true};
-                 });
+    start = simulate::prepare_push(scene, preset.indentation, plan, watch)
+                .map([](simulate::PushedShell pushed) {
+                  return BranchStart{std::move(pushed.simulation), 0, 1, true};
+                });
   else
-    course = begin_actuation(scene, plan, watch);
+    start = begin_actuation(scene, plan, watch);
   if (watch.cancelled()) return stopped();
-  if (!course) return tl::unexpected<Error>(course.error());
-  return Diagram(*course, options, watch).make();
+  if (!start) return tl::unexpected<Error>(start.error());
+  return Diagram(*start, options, watch).make();
 }
 
 }  // namespace gridshell::study

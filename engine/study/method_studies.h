@@ -29,8 +29,8 @@ struct AccuracyOptions {
 struct AutoOutcome {
   /// the requested tolerance and the error, over the length scale; processor time
   double tolerance = 0, error = 0, cpu_s = 0;
-  double front_s = 0;  ///< processor time of the fastest other method with at most this error
-  double asked_s = 0;  ///< processor time of the fastest other method that meets the tolerance
+  double front_s = 0;      ///< processor time of the fastest other method with at most this error
+  double tolerance_s = 0;  ///< processor time of the fastest other method that meets the tolerance
 };
 
 struct AccuracyStudy {

@@ -70,16 +70,16 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
   for (const double level : levels_of(jitter)) {
     forms.push_back({parameter_at(level), {}});
     if (jitter.mode == SearchMode::random) continue;
-    auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
+    auto path = follow_actuation(scene, judged_plan, level < 1, level, watch);
     if (watch.cancelled()) return stopped();
     // whether the level was reached is tested below
-    if (course && scene->from_net) (void)course->simulation.go(forms.back().t, watch);
-    const bool there = course && course->simulation.shell().state().t == forms.back().t;
+    if (path && scene->from_net) (void)path->simulation.go(forms.back().t, watch);
+    const bool there = path && path->simulation.shell().state().t == forms.back().t;
     if (there)
-      forms.back().state = course->simulation.shell().state().levels[0];
+      forms.back().state = path->simulation.shell().state().levels[0];
     else
       forms.pop_back();
-    if (!course) last = tl::unexpected<Error>(course.error());
+    if (!path) last = tl::unexpected<Error>(path.error());
   }
   if (!forms.empty()) return forms;
   if (!last) return tl::unexpected<Error>(last.error());

@@ -41,12 +41,13 @@ std::vector<Oklab> even_steps(const std::vector<Oklab>& knots, int count) {
   }
   std::vector<Oklab> even;
   for (int n = 0; n < count; ++n) {
-    const double wished = length.back() * n / (count - 1);
+    const double requested = length.back() * n / (count - 1);
     const auto after = std::size_t(std::clamp<long>(
-        std::ranges::lower_bound(length, wished) - length.begin(), 1, long(length.size()) - 1));
+        std::ranges::lower_bound(length, requested) - length.begin(), 1, long(length.size()) - 1));
     const double step = length[after] - length[after - 1];
-    even.push_back(mix(curve[after - 1], curve[after],
-                       step > 0 ? std::clamp((wished - length[after - 1]) / step, 0.0, 1.0) : 0));
+    even.push_back(
+        mix(curve[after - 1], curve[after],
+            step > 0 ? std::clamp((requested - length[after - 1]) / step, 0.0, 1.0) : 0));
   }
   return even;
 }

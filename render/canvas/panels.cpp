@@ -145,8 +145,8 @@ Result<void> check(const PanelFigure& figure) {
 Result<Image> draw_panels(const PanelFigure& figure) {
   TRY_DO(check(figure));
   const Grid grid = make_grid(figure);
-  const double wished = figure.print.dpi * figure.print.width_mm / 25.4;
-  const double scale = wished > 0 ? std::round(wished) / grid.total_width() : 1;
+  const double requested = figure.print.dpi * figure.print.width_mm / 25.4;
+  const double scale = requested > 0 ? std::round(requested) / grid.total_width() : 1;
   return draw_picture(grid.total_width(), grid.total_height(), scale, figure.background,
                       [&](Canvas& canvas) { draw(canvas, figure, grid, false); });
 }

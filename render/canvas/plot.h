@@ -69,9 +69,9 @@ struct Band {
 };
 
 /// The different values of a member that `requested` accepts, in the order of their first rows.
-template <class Row, class Value, class Wanted>
+template <class Row, class Value, class Predicate>
 std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member,
-                            const Wanted& requested) {
+                            const Predicate& requested) {
   std::vector<Value> values;
   for (const Row& row : rows)
     if (requested(row.*member) && std::ranges::find(values, row.*member) == values.end())

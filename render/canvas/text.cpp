@@ -73,9 +73,9 @@ struct Step {
 };
 
 // the least of 1, 2 or 5 times a power of ten that is at least the requested size
-Step nice_step(double wished) {
-  const double power = std::pow(10.0, std::floor(std::log10(wished)));
-  const double ratio = wished / power;
+Step nice_step(double requested) {
+  const double power = std::pow(10.0, std::floor(std::log10(requested)));
+  const double ratio = requested / power;
   if (ratio <= 1.0 + 1e-9) return {power, 5};
   if (ratio <= 2.0 + 1e-9) return {2 * power, 4};
   if (ratio <= 5.0 + 1e-9) return {5 * power, 5};

@@ -52,9 +52,9 @@ std::string length_text(double mm);
 
 /// The length of a scale bar for an object of half size `size_mm`: the given length or, if that is
 /// much shorter or longer than the object, a round one. 0 remains 0.
-inline double fitted_scale_bar(double wanted_mm, double size_mm) {
-  const bool fits = wanted_mm >= 0.03 * size_mm && wanted_mm <= 2 * size_mm;
-  return wanted_mm <= 0 || fits ? wanted_mm : nice_ceiling(0.2 * size_mm);
+inline double fitted_scale_bar(double requested_mm, double size_mm) {
+  const bool fits = requested_mm >= 0.03 * size_mm && requested_mm <= 2 * size_mm;
+  return requested_mm <= 0 || fits ? requested_mm : nice_ceiling(0.2 * size_mm);
 }
 
 /// Ticks within [low, high] at multiples of 1, 2 or 5 times a power of ten, about `count` major

@@ -71,12 +71,13 @@ class EglContext final : public Context {
 
   /// Returns false if the display has no OpenGL 3.3 core context without a surface.
   bool make_current() {
-    const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
-                                    EGL_OPENGL_BIT, EGL_NONE};
+    const EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                                        EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!egl_.bind_api(EGL_OPENGL_API)) return false;
-    if (!egl_.choose_config(display_, config_wanted, &config, 1, &count) || count < 1) return false;
+    if (!egl_.choose_config(display_, config_attributes, &config, 1, &count) || count < 1)
+      return false;
     // clang-format off
     const EGLint requested[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
                              EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,

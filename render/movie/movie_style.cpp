@@ -175,7 +175,9 @@ MovieStyle figure_style(const preset::Preset& preset) {
   if (figure.width_mm <= 0) return style;
   style.print = {figure.width_mm, figure.dpi, style.look.background};
   const double aspect = double(style.height()) / style.width();
-  const auto pixels = [](double wished) { return std::clamp(int(std::lround(wished)), 16, 16384); };
+  const auto pixels = [](double requested) {
+    return std::clamp(int(std::lround(requested)), 16, 16384);
+  };
   style.size[0] = pixels(figure.width_mm / 25.4 * figure.dpi);
   style.size[1] = pixels(aspect * style.width());
   return style;

@@ -16,10 +16,11 @@ namespace {
 
 constexpr Colour shell_ink = ink, scan_ink{0.80f, 0.16f, 0.12f, 1};
 
-/// The frame without interpenetrations, since these figures have no legend for their marks.
-record::Frame unmarked(record::Frame frame) {
-  frame.contacts = -1;
-  return frame;
+/// A caption with the interpenetrations of a frame in a row of its own, which explains their marks.
+std::string with_contacts(const std::string& caption, const record::Frame& frame) {
+  const std::string contacts = contact_caption(frame);
+  if (contacts.empty()) return caption;
+  return caption + (caption.empty() ? "" : "\n") + "violet: " + contacts;
 }
 
 /// The last frame alone, with the actuated boundary only.
@@ -27,7 +28,7 @@ record::Trajectory final_state(const record::Trajectory& run) {
   record::Trajectory last;
   last.layout = run.layout;
   last.layout.original_boundary = run.layout.actuated_boundary;
-  last.frames = {unmarked(run.frames.back())};
+  last.frames = {run.frames.back()};
   return last;
 }
 
@@ -71,8 +72,10 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     // lines as thick on paper as those of the largest shell
     drawing.rod_diameter_mm *= wider;
     edit(runs[k], drawing);
-    TRY_DO(add_panel(figure, stages[k], std::move(drawing),
-                     {runs.size() > 1, runs[k].caption, wider}, nullptr, watch));
+    TRY_DO(add_panel(
+        figure, stages[k], std::move(drawing),
+        {runs.size() > 1, with_contacts(runs[k].caption, states[k].frames.front()), wider}, nullptr,
+        watch));
   }
   return figure;
 }
@@ -232,16 +235,16 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   }
   show_scale_of(stages, style, figure);
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const record::Frame last = unmarked(runs[k].run->frames.back());
+    const record::Frame& last = runs[k].run->frames.back();
     Drawing drawing = stages[k].drawing(last);
     if (!stages[k].ghost_caption(last).empty()) figure.keys = {{ghost_ink, "unloaded"}};
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     // wider rods, since their colours are the result
     drawing.rod_diameter_mm *= 1.5 * wider;
-    TRY_DO(add_panel(
-        figure, stages[k], std::move(drawing),
-        {several, (several ? runs[k].caption + "\n" : "") + state_captions(last).front(), wider},
-        nullptr, watch));
+    const std::string depth = state_captions(last).front(),
+                      caption = several ? runs[k].caption + "\n" + depth : depth;
+    TRY_DO(add_panel(figure, stages[k], std::move(drawing),
+                     {several, with_contacts(caption, last), wider}, nullptr, watch));
     watch.report(double(k + 1) / double(runs.size()));
   }
   return figure;

@@ -12,7 +12,7 @@ namespace gridshell::render {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1}, lath_ink{0.66f, 0.55f, 0.42f, 1};
+    original_ink{0.66f, 0.67f, 0.7f, 1};
 
 // the style with a camera from the side, so that a pushed joint moves in the picture's plane; of
 // the two sides the one nearer to the style's azimuth

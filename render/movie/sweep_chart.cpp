@@ -95,8 +95,8 @@ Series mean_of(const Curve& curve) {
   return mean;
 }
 
-template <class Wanted>
-Series marks_of(const Curve& curve, Series style, const Wanted& requested) {
+template <class Predicate>
+Series marks_of(const Curve& curve, Series style, const Predicate& requested) {
   style.x.clear();
   style.y.clear();
   style.name.clear();

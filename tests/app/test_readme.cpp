@@ -94,6 +94,14 @@ TEST_CASE("pictures, pages and sections that the pages point to exist") {
   }
 }
 
+TEST_CASE("every picture made for the pages is shown by one") {
+  std::string all;
+  for (const auto& document : documents()) all += text_of(root / document);
+  for (const auto& file : fs::directory_iterator(root / "presets/pictures"))
+    if (file.path().extension() == ".png" || file.path().extension() == ".svg")
+      CHECK_THAT(all, Contains("pictures/" + file.path().filename().string()));
+}
+
 TEST_CASE("every preset has its picture for the window, and every picture its preset") {
   const auto stems = [](const fs::path& folder, const char* ending) {
     std::set<std::string> names;
@@ -101,6 +109,6 @@ TEST_CASE("every preset has its picture for the window, and every picture its pr
       if (file.path().extension() == ending) names.insert(file.path().stem().string());
     return names;
   };
-  // drawn by presets/pictures/cards.sh
+  // drawn by presets/pictures/draw.sh
   CHECK(stems("presets/pictures/cards", ".png") == stems("presets", ".toml"));
 }

@@ -320,3 +320,20 @@ TEST_CASE("ranges of several paths that meet are one, separate ones or of other 
   add_marks(marks, marks_of(path_of({{0.7, 1}, {0.65, 1}}), {}, -1, [](double t) { return t; }));
   CHECK(marks.size() == 3);
 }
+
+TEST_CASE("laths are drawn as laths, and a line that the preset does not show is not drawn") {
+  ShellView shell = shell_of_four_joints();
+  auto layout = std::make_shared<record::Layout>(*shell.layout);
+  layout->laths_mm = {6, 2};
+  layout->original_boundary = Eigen::Matrix3Xd::Zero(3, 2);
+  layout->actuated_boundary = Eigen::Matrix3Xd::Ones(3, 2);
+  shell.layout = layout;
+  Show show;
+  show.colour_by = ColourBy::none;
+  const render::Drawing drawn = drawing_of(shell, show, 0.1);
+  CHECK(drawn.laths_mm == layout->laths_mm);
+  CHECK(drawn.joint_diameter_mm == 3);
+  CHECK(drawn.rings.size() == 2);
+  shell.preset.style.rings = preset::Visibility::off;
+  CHECK(drawing_of(shell, show, 0.1).rings.empty());
+}

@@ -120,10 +120,10 @@ TEST_CASE("the history of the lowest stiffness is complete after a restart") {
     NestedState state;
     state.t = 1 / stiffness;
     state.lowest_eigenvalue = stiffness;
-    whole.take(state);
+    whole.add(state);
   }
   CHECK(whole.near_zero());
-  restarted.know(whole.known());
+  restarted.set_history(whole.history());
   CHECK(restarted.near_zero());
   CHECK(restarted.shortened(1) == whole.shortened(1));
 }

@@ -253,3 +253,20 @@ TEST_CASE("shells over nets are lines, with the half-span where it is requested"
   REQUIRE(figure->panels[0].labels.size() == 1);
   CHECK(figure->panels[0].labels[0].text == "*x* = *L*");
 }
+
+TEST_CASE("interpenetrations are named in the caption of a panel that marks them") {
+  record::Trajectory run = one_cell();
+  MovieStyle style;
+  style.size = {64, 48};
+  Watch watch;
+  const auto caption = [&] {
+    const auto over_net = draw_over_nets({{.run = &run, .caption = "cap"}}, style, watch);
+    const auto pushed = draw_pushes({{.run = &run, .caption = "cap"}}, style, watch);
+    REQUIRE((over_net && pushed));
+    CHECK(pushed->panels[0].caption.ends_with(over_net->panels[0].caption.substr(3)));
+    return over_net->panels[0].caption;
+  };
+  CHECK(caption() == "cap");
+  run.frames.edit()[0].contacts = 2;
+  CHECK(caption() == "cap\nviolet: 2 interpenetrations (contact not modelled)");
+}
