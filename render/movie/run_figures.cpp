@@ -212,7 +212,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   };
   TRY(figure, panels_of(runs, style, watch, columns, dress));
   figure->colour_bar = ColourBar{unit.label, scale};
-  figure->colour_bar->words = "distance from the net";
+  figure->colour_bar->words = "deviation from the net";
   return figure;
 }
 
