@@ -1,6 +1,7 @@
 // Figures of runs show the numbers they are given.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "render/movie/run_figures.h"
 #include "render/movie/run_plots.h"
@@ -90,6 +91,35 @@ TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest
   run.layout.parts.emplace_back();
   CHECK(quantile_plot({{&run, "shell"}}).series[0].y.back() == Approx(5));
   CHECK(quantile_plot({{&run, "shell"}}).y.label == "deviation from the net, Δ (mm)");
+}
+
+TEST_CASE("marks of six shells differ in shape or filling") {
+  const record::Trajectory run = one_cell();
+  const Plot plot = curvature_plot(std::vector<NamedRun>(6, {&run, "shell"}));
+  std::set<std::pair<Marker, bool>> looks;
+  for (const Series& series : plot.series) looks.insert({series.marker, series.hollow});
+  CHECK(looks.size() == 6);
+}
+
+TEST_CASE("a saddle has one colour, whichever blocks are next to it") {
+  record::Trajectory two = one_cell(), three = one_cell();
+  for (const char* name : {"quarter sphere 1", "saddle"})
+    two.layout.parts.emplace_back().name = name;
+  for (const char* name : {"quarter sphere 1", "half cylinder", "saddle"})
+    three.layout.parts.emplace_back().name = name;
+  const BlockKinds of_two({{&two, ""}}), of_three({{&three, ""}});
+  CHECK(of_two.colour("saddle") == of_three.colour("saddle"));
+  CHECK_FALSE(of_two.colour("saddle") == of_two.colour("quarter sphere 2"));
+}
+
+TEST_CASE("seams with equal gaps and kinks are called equal") {
+  record::Trajectory run = one_cell();
+  for (const char* seam : {"a.east - b.west", "b.east - c.west"})
+    for (const double line : {10.0, 30.0})
+      run.layout.seam_rods.push_back({seam, 'u', line, 1, line});
+  CHECK(seam_plots(run)[0].series[1].name == "b east – c west (equal)");
+  run.layout.seam_rods.back().gap_mm = 2;
+  CHECK(seam_plots(run)[0].series[1].name == "b east – c west");
 }
 
 TEST_CASE("seams are plotted about their middles, gap and kink") {
