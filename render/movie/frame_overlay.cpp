@@ -235,8 +235,11 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     if (at >= frame.reactions_N.cols()) continue;
     // the stretch of the spring is that at which its force is the reaction
     const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
-    const Eigen::Vector3d stretch =
+    Eigen::Vector3d stretch =
         (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
+    // a shorter spring would be hidden by its ball
+    if (stretch.norm() < 3 * size)
+      stretch = 3 * size * (stretch.isZero(0) ? -Eigen::Vector3d::UnitZ() : stretch.normalized());
     add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
     drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
   }

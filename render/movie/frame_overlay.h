@@ -66,8 +66,8 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
                   Drawing& drawing);
 
 /// Adds the supports: balls at supported ends, as in the holes of a plate; for a spring a zigzag
-/// from its node to a ball at the spring's support; sleeves around the ends of clamped rods.
-/// `supported`: nodes with a reaction in some frame of the run.
+/// from its node to a ball at the spring's support, at least three balls long; sleeves around the
+/// ends of clamped rods. `supported`: nodes with a reaction in some frame of the run.
 void put_supports(const record::Layout& layout, const record::Frame& frame,
                   const std::set<int>& supported, const Appearance& look, Drawing& drawing);
 
