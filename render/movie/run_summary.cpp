@@ -41,7 +41,7 @@ std::vector<LoadArrow> area_arrows(const record::Layout& layout, const record::F
         nodes, {}, [&](int node) { return (at(node) - middle).squaredNorm(); });
     const Eigen::Vector3d load = frame.loads_N.col(nearest - nodes.begin());
     const Eigen::Vector3d tip = frame.nodes.col(*nearest);
-    if (((at(*nearest) - middle).array().abs() < 0.5 * side.array()).all() && !load.isZero(0))
+    if (((at(*nearest) - middle).array().abs() < 0.35 * side.array()).all() && !load.isZero(0))
       arrows.push_back({*nearest, tip - longest_force(layout) * load.normalized(), tip});
   }
   return arrows;

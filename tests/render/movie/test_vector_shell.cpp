@@ -99,12 +99,13 @@ TEST_CASE("a push along the view has a sign in pictures too") {
     style.size = {640, 480};
     style.elevation_deg = elevation;
     for (const bool two : {false, true}) {
-      style.views = two ? std::vector<std::array<double, 2>>{{0, elevation}}
-                        : std::vector<std::array<double, 2>>{};
-      test::FakeRenderer renderer;
-      const Image picture = value_of(Stage(run, style).draw_views(renderer, {run.frames[2], 2}));
+      style.views = {};
+      if (two) style.views = {{0, elevation}};
+      gridshell::test::FakeRenderer renderer;
+      const Stage stage(run, style);
+      const Image picture = value_of(stage.draw_views(renderer, {run.frames[2], 2}));
       // the sign is white inside, which nothing else in the views is
-      const Box& view = Stage(run, style).layout().view;
+      const Box& view = stage.layout().view;
       int white = 0;
       for (int y = int(view.y) + 2; y < int(view.bottom()) - 2; ++y)
         for (int x = int(view.x) + 2; x < int(view.right()) - 2; ++x)
