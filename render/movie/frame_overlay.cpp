@@ -237,9 +237,9 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
     Eigen::Vector3d stretch =
         (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
-    // a shorter spring would be hidden by its ball
-    if (stretch.norm() < 3 * size)
-      stretch = 3 * size * (stretch.isZero(0) ? -Eigen::Vector3d::UnitZ() : stretch.normalized());
+    // a shorter spring would be hidden by its ball; one without force has no direction
+    if (stretch.norm() > 1e-4 * layout.length_scale_mm)
+      stretch *= std::max(1.0, 3 * size / stretch.norm());
     add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
     drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
   }
