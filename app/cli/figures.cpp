@@ -67,7 +67,8 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
   const std::string first = name + (narrow ? "\n" : ": ");
   const auto text = [](double value) { return fmt::format("{:.{}f}", value, value < 1 ? 2 : 1); };
   if (rods <= further * joints) return fmt::format("{}max {} {}", first, text(joints), word);
-  return fmt::format("{}max {} (rods {}) {}", first, text(joints), text(rods), word);
+  return fmt::format("{}max {} {},{}rods {} {}", first, text(joints), word, narrow ? "\n" : " ",
+                     text(rods), word);
 }
 
 /// The name of a run in a picture of several runs, marked text: its own title, or the name of its

@@ -200,9 +200,8 @@ class PageMaker {
     page.add_figure("A", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
     // narrower, since the colour bar has words, which would be too small if the figure were scaled
-    Box shells = middle;
-    shells.width -= 14;
-    render::MovieStyle push_style = filling(shells, std::min(3, int(pushes_.size())), true);
+    render::MovieStyle push_style =
+        filling({2, 94, 160, 50}, std::min(3, int(pushes_.size())), true);
     if (push_ != nullptr) {
       push_style.azimuth_deg = push_->preset.movie.azimuth_deg;
       push_style.elevation_deg = push_->preset.movie.elevation_deg;
@@ -215,6 +214,7 @@ class PageMaker {
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
                             run.frames.back(), {-0.01, 0.07}, page_font);
+      plot.title = named_pushes_[k].name + "\n" + plot.title;
       if (k == 0) page.add_legend({5, 145.5, 171, 5}, plot);
       plot.legend = render::LegendPosition::none;
       const double width = 174.0 / double(named_pushes_.size());
@@ -238,8 +238,7 @@ class PageMaker {
     page.add_figure("A", left, std::move(*blocks));
     const int count = int(shells_.size());
     const auto inner = [](const Box& box) {
-      // "B1" is wider than the space next to it
-      constexpr double room = 6;
+      constexpr double room = 6;  // "B1" is wider than the space next to it
       return Box{box.x + room, box.y, box.width - room, box.height};
     };
     for (int k = 0; k < count; ++k)
@@ -261,8 +260,10 @@ class PageMaker {
     over->keys = {{over->keys.front().colour, "equilibrium, over the Chebyshev nets of A"}};
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
     TRY_DO(add_experiment(page));
-    // no letter, since the paper has no such panel
-    page.add_plot("", {116, 58, 60, 48}, render::curvature_plot(named_shells_));
+    page.add_plot("F", {116, 58, 60, 48}, render::curvature_plot(named_shells_));
+    page.add_note({2, page.height_mm - 1, 174, 4},
+                  "F: cells of C. D and E of the paper are a photograph and measured joints.");
+    page.height_mm += 4;
     return page;
   }
 
@@ -274,22 +275,25 @@ class PageMaker {
     Page page{178, 7 + pitch * ((count + columns - 1) / columns), {}};
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
-      record::Frame frame = run.trajectory.frames.back();
-      record::Trajectory last{run.trajectory.layout, {std::move(frame)}};
-      // a point instead of the boundaries, so that the shell alone fills its box
-      last.layout.original_boundary = last.layout.actuated_boundary =
-          last.frames.front().nodes.leftCols(1);
+      const record::Frame frame = run.trajectory.frames.back();
+      record::Trajectory last{run.trajectory.layout, {frame}};
       render::MovieStyle style = style_of(run.preset, Pictures::stills);
-      style.look.floor = style.look.rings = style.look.loads = style.look.cells = false;
+      style.look.floor = style.look.loads = style.look.cells = false;
+      // without boundary and unloaded shape a pushed shell would look like a tangle
+      style.look.rings = run.preset.indentation.requested();
+      if (style.look.rings)
+        last.frames = {run.trajectory.frames.front(), frame};
+      else  // a point instead of the boundaries, so that the shell alone fills its box
+        last.layout.original_boundary = last.layout.actuated_boundary = frame.nodes.leftCols(1);
       style.colour_by = preset::ColourBy::none;
       style.quality = style_.quality;
       style = sized(std::move(style), width - 4, high);
       style.captions = style.heading = style.inset = style.legends = false;
       style.turn_deg = 0;
       const render::Stage stage(last, style);
-      TRY(picture, stage.draw_views(renderer_, {last.frames.front(), 0}));
+      TRY(picture, stage.draw_views(renderer_, {frame, 0}));
       render::Panel panel{std::move(*picture), panel_letter(k), ""};
-      panel.lines = render::shell_lines(stage.drawing(last.frames.front()), stage.camera(0));
+      panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(0));
       const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
       page.add_panel("", box, std::move(panel));
       const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
@@ -297,8 +301,9 @@ class PageMaker {
       page.add_note({box.x + 3, box.bottom() + 6, width - 3, 4}, render::plain(run.preset.title));
       page.add_note({box.x + 3, box.bottom() + 9.5, width - 3, 4},
                     render::plain(run.preset.source));
-      if (const auto overlaps = render::contact_caption(last.frames.front()); !overlaps.empty())
-        page.add_note({box.x + 3, box.bottom() + 13, width - 3, 4}, "violet: " + overlaps);
+      const std::string overlaps = render::contact_caption(frame);
+      page.add_note({box.x + 3, box.bottom() + 13, width - 3, 4},
+                    overlaps.empty() ? stage.ghost_caption(frame) : "violet: " + overlaps);
       watch_.report(double(k + 1) / count);
     }
     return page;

@@ -68,8 +68,12 @@ std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Va
     }
     if (!series.x.empty()) all.push_back(std::move(series));
   }
-  // reversed, so that the many others are drawn first, below the few of the paper
+  // the many others are drawn first, below the few of the paper; the legend has the paper's order
+  std::vector<render::Series> keys = all;
+  for (render::Series& key : keys) key.x.clear(), key.y.clear();
   std::ranges::reverse(all);
+  for (render::Series& series : all) series.name.clear();
+  std::ranges::move(keys, std::back_inserter(all));
   return all;
 }
 
@@ -103,7 +107,7 @@ render::Plot lives_plot(const record::StateTables& states) {
   plot.x = {.label = "elastic energy at the end of the path (mJ)"};
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
-  plot.y = {.label = circle ? "exists up to *R*_{a} (mm)" : "exists from progress"};
+  plot.y = {.label = circle ? "exists up to *R*_{a} (mm); actuation ←" : "exists from progress"};
   plot.legend = render::LegendPosition::above;
   plot.series = by_class(states.rows, [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;

@@ -53,6 +53,7 @@ struct Arrow {
   Eigen::Vector3d from, to;
   double diameter_mm = 1;  ///< of its shaft
   Colour colour;
+  bool shadow = true;  ///< whether it casts a shadow
 };
 
 /// Text centred at a point; drawn only in panels of figures.

@@ -245,7 +245,7 @@ class Weaver {
       const Ribbon ribbon{points, colours, radii};
       const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
       for (const int begin : {0, 2})
-        add_stretch(ribbon, first, begin, begin + 1, forward_.dot(arrow.to) - radius, true);
+        add_stretch(ribbon, first, begin, begin + 1, forward_.dot(arrow.to) - radius, arrow.shadow);
     }
   }
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <numbers>
+#include <ranges>
 #include <set>
 
 #include "render/canvas/panels.h"
@@ -133,6 +136,17 @@ std::string seam_text(std::string seam) {
   return seam;
 }
 
+/// Whether two series have the same points, in any order.
+bool equal(const Series& a, const Series& b) {
+  constexpr double near = 1e-3;  // mm or degrees
+  return a.x.size() == b.x.size() &&
+         std::ranges::all_of(std::views::iota(0, int(a.x.size())), [&](int k) {
+           return std::ranges::any_of(std::views::iota(0, int(b.x.size())), [&](int m) {
+             return std::hypot(a.x[k] - b.x[m], a.y[k] - b.y[m]) < near;
+           });
+         });
+}
+
 constexpr double between = 14, bar_height = 20;  // points
 constexpr const char* rim_text = "dashed: actuated boundary";
 
@@ -157,7 +171,12 @@ Colour BlockKinds::colour(const std::string& block) const {
                                 {0.10f, 0.55f, 0.40f, 1},
                                 {0.62f, 0.25f, 0.62f, 1},
                                 {0.16f, 0.42f, 0.78f, 1}};
-  const auto at = std::ranges::find(kinds_, block_kind(block)) - kinds_.begin();
+  // these kinds have one colour in all pictures
+  constexpr std::array known{"quarter sphere", "half cylinder", "saddle"};
+  const std::string kind = block_kind(block);
+  const auto fixed = std::ranges::find(known, kind);
+  const auto at = fixed != known.end() ? fixed - known.begin()
+                                       : std::ranges::find(kinds_, kind) - kinds_.begin() + 3;
   return colours[std::size_t(at) % std::size(colours)];
 }
 
@@ -284,6 +303,8 @@ std::vector<Plot> seam_plots(const record::Trajectory& run) {
                                  std::max(2.2, 5.4 - 2.0 * double(index)));
       marks.x = std::move(pair[k].x);
       marks.y = std::move(pair[k].y);
+      // equal ones are on the first one's marks
+      if (index > 0 && equal(marks, plots[k].series.front())) marks.name += " (equal)";
       plots[k].add(std::move(marks));
     }
     ++index;

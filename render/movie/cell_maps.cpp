@@ -169,7 +169,8 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
   CellMap map{.box = {at.x + label_room, at.y + head_room, panel.width() - label_room,
                       cell_height * double(panel.y.size())},
               .name = plain(panel.method),
-              .x_label = label_of(panel.x_name),
+              .x_label = label_of(panel.x_name) +
+                         (panel.x_name.starts_with("step over") ? "; dashed: limit" : ""),
               .size = size,
               .column_size = size - 1.5,
               .row_size = size - 1,
@@ -339,7 +340,8 @@ Colour outcome_colour(RunOutcome outcome) {
 }
 
 std::string outcome_label(RunOutcome outcome) {
-  const std::string name = spaced(std::string(word_of(outcome)));
+  const std::string name =
+      outcome == RunOutcome::blow_up ? "diverged" : spaced(std::string(word_of(outcome)));
   return record::silently_wrong(outcome) && outcome != RunOutcome::silent_wrong ? "silent: " + name
                                                                                 : name;
 }
@@ -361,8 +363,8 @@ void draw_outcome_maps(Canvas& canvas, const Box& box, const std::vector<Stabili
   for (const PanelPosition& one : panel_positions(panels, box.width, &height)) {
     const Point at{box.x + one.at.x, box.y + one.at.y};
     if (one.first)
-      canvas.text(plain(one.panel->map + ", by " + spaced(one.panel->y_name)), {at.x + 4, at.y + 4},
-                  {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
+      canvas.text(plain(one.panel->map + "; rows: " + spaced(one.panel->y_name)),
+                  {at.x + 4, at.y + 4}, {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
     draw_panel(canvas, *one.panel, {at.x, at.y + map_room});
   }
   // the first row of patches has the outcomes that a user would notice

@@ -36,7 +36,7 @@ const Quantity& quantity_of(ColourBy by) {
       {ColourBy::K, {"*K*_{□} (rad)", "integrated Gauss curvature", true, false, 0.02}},
       {ColourBy::K_change,
        {"Δ*K*_{□} (rad)", "change of integrated Gauss curvature", true, false, 0.02}},
-      {ColourBy::deviation, {"Δ/*ρ*", "distance from the net", true, true, 1e-6, true}},
+      {ColourBy::deviation, {"Δ/*ρ*", "deviation from the net", true, true, 1e-6, true}},
       {ColourBy::displacement,
        {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true}},
       {ColourBy::energy, {"*e*_{b} (mJ/m)", "bending energy over length", false, true, 1e-6, true}},

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,7 +22,7 @@ std::optional<double> depth_of_snap(const record::Frame& frame) {
 /// Vertical lines at the depth of each snap, from the force before to the force after it. Both
 /// forces are extrapolated from the nearest frames by their stiffness.
 Series snaps_of(const Series& pushed, const record::Trajectory& run) {
-  Series snaps = line_series("", pushed.colour, 1, {3, 2});
+  Series snaps = line_series("", pushed.colour, pushed.line_width, {3, 2});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
     const record::Frame after = run.frames[k];
     if (!after.event.starts_with("snap")) continue;
@@ -99,16 +100,43 @@ std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
   return bands;
 }
 
+/// A mark at the largest force, if the force then falls.
+Series peak_of(const Series& pushed) {
+  Series peak = mark_series("", pushed.colour, Marker::circle, 4, true);
+  std::size_t at = 0, last = 0;
+  for (std::size_t k = 0; k < pushed.y.size(); ++k) {
+    if (std::isfinite(pushed.y[k])) last = k;
+    if (pushed.y[k] > pushed.y[at]) at = k;
+  }
+  if (at > 0 && at < last) peak.add(pushed.x[at], pushed.y[at]);
+  return peak;
+}
+
 }  // namespace
 
 Plot force_plot(const std::vector<NamedRun>& runs) {
+  constexpr Colour grey{0.4f, 0.4f, 0.4f, 1};
   Plot plot;
   plot.x = {.label = "depth *δ* (mm)", .low = 0};
   plot.y = {.label = "force (N)"};
-  bool snap_in_legend = false, unstable_in_legend = false;
+  // series without points, for the rows of the legend that several runs have in common
+  std::vector<Series> keys;
+  const auto add = [&](Series pieces, const char* name) {
+    if (pieces.x.empty()) return;
+    if (std::ranges::find(keys, name, &Series::name) == keys.end()) {
+      Series& key = keys.emplace_back(pieces);
+      key.name = name;
+      key.x.clear(), key.y.clear();
+      if (runs.size() > 1) key.colour = grey;
+    }
+    plot.series.push_back(std::move(pieces));
+  };
   const bool banded = errors_seen(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
+    // earlier lines are wider, so that they are visible where a later one is on them
+    const double later = double(runs.size() - 1 - k) / double(runs.size());
+    Series series =
+        line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k), 1 + 1.6 * later);
     // with many frames there are no markers, which would cover the line
     constexpr std::size_t most_marked = 24;
     if (runs[k].run->frames.size() <= most_marked) series.marker = series_marker(k);
@@ -119,17 +147,14 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
       plot.bands.push_back(std::move(band));
     }
     Series snaps = snaps_of(series, *runs[k].run), unstable = unstable_of(series, *runs[k].run);
+    Series peak = peak_of(series);
     part_at_snaps(series, *runs[k].run);
     plot.series.push_back(std::move(series));
-    if (!unstable.x.empty()) {
-      if (!std::exchange(unstable_in_legend, true)) unstable.name = "unstable";
-      plot.series.push_back(std::move(unstable));
-    }
-    if (snaps.x.empty()) continue;
-    if (!snap_in_legend) snaps.name = "snap to another state";
-    snap_in_legend = true;
-    plot.series.push_back(std::move(snaps));
+    add(std::move(unstable), "unstable");
+    add(std::move(snaps), "snap to another state");
+    add(std::move(peak), "largest force");
   }
+  std::ranges::move(keys, std::back_inserter(plot.series));
   return plot;
 }
 

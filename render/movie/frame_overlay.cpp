@@ -235,9 +235,11 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     if (at >= frame.reactions_N.cols()) continue;
     // the stretch of the spring is that at which its force is the reaction
     const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
-    const Eigen::Vector3d stretch =
+    Eigen::Vector3d stretch =
         (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
-    // without a force it has no direction to be drawn in
+    // a shorter spring would be hidden by its ball; one without force has no direction
+    if (stretch.norm() > 1e-4 * layout.length_scale_mm)
+      stretch *= std::max(1.0, 3 * size / stretch.norm());
     if (!stretch.isZero(0)) add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
     drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
   }
@@ -276,10 +278,11 @@ void put_braces(const record::Layout& layout, const record::Frame& frame, double
 
 void put_loads(const record::Layout& layout, const record::Frame& frame, double largest_N,
                double thin_mm, Drawing& drawing) {
-  const double width =
-      std::max((loads_all_alike(frame) ? 0.04 : 0.02) * longest_force(layout), 1.5 * thin_mm);
+  const bool area = loads_all_alike(frame);
+  const double width = std::max((area ? 0.04 : 0.02) * longest_force(layout), 1.5 * thin_mm);
+  // shadows of many arrows would look like parts of the shell
   for (const LoadArrow& arrow : force_arrows(layout, frame, largest_N))
-    drawing.arrows.push_back({arrow.from, arrow.to, width, force_ink});
+    drawing.arrows.push_back({arrow.from, arrow.to, width, force_ink, !area});
 }
 
 std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N) {
@@ -291,7 +294,11 @@ std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N
 std::string load_caption(const record::Frame& frame) {
   if (frame.loads_N.cols() == 0) return "";
   const auto sum = [](const Eigen::Matrix3Xd& of) { return force_text(of.rowwise().sum().norm()); };
-  const std::string loads = "loads " + sum(frame.loads_N);
+  std::string loads = "loads " + sum(frame.loads_N);
+  if (loads_all_alike(frame)) return loads + ", distributed (arrows not to scale)";
+  if (const Eigen::Matrix3Xd small = small_loads(frame); small.cols() > 0)
+    loads += fmt::format(" ({:.0f} % distributed)",
+                         100 * small.rowwise().sum().norm() / frame.loads_N.rowwise().sum().norm());
   return frame.reactions_N.cols() == 0 ? loads : loads + ", reactions " + sum(frame.reactions_N);
 }
 

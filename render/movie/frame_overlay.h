@@ -18,7 +18,7 @@ namespace gridshell::render {
 
 inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1},
     contact_ink{0.80f, 0.05f, 0.60f, 1}, brace_ink{0.30f, 0.36f, 0.50f, 1},
-    lath_ink{0.66f, 0.55f, 0.42f, 1};
+    ghost_ink{0.58f, 0.6f, 0.64f, 0.6f}, lath_ink{0.66f, 0.55f, 0.42f, 1};
 
 /// The boxes of a frame's parts, in pixels. They never overlap, at any size; a part that does not
 /// fit has an empty box and is not shown.
@@ -66,8 +66,8 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
                   Drawing& drawing);
 
 /// Adds the supports: balls at supported ends, as in the holes of a plate; for a spring a zigzag
-/// from its node to a ball at the spring's support; sleeves around the ends of clamped rods.
-/// `supported`: nodes with a reaction in some frame of the run.
+/// from its node to a ball at the spring's support, at least three balls long; sleeves around the
+/// ends of clamped rods. `supported`: nodes with a reaction in some frame of the run.
 void put_supports(const record::Layout& layout, const record::Frame& frame,
                   const std::set<int>& supported, const Appearance& look, Drawing& drawing);
 
@@ -81,7 +81,8 @@ void put_loads(const record::Layout& layout, const record::Frame& frame, double 
 /// The scale of these arrows; empty if there are no loads.
 std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N);
 
-/// "loads 71.98 kN, reactions 71.98 kN": the lengths of the vector sums, if they are known.
+/// "loads 72 kN (3 % distributed), reactions 72 kN": the lengths of the vector sums, if they are
+/// known; "loads 72 kN, distributed (arrows not to scale)" if all loads are those of an area.
 std::string load_caption(const record::Frame& frame);
 
 /// "3 interpenetrations (contact not modelled)"; empty: none, or not searched for.

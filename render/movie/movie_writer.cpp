@@ -242,9 +242,12 @@ class SideBySideMovie {
       if (canvas.measure(longer, text).width <= width) state = longer;
     }
     canvas.text(state, {x, box.y - 1.4 * em_}, text);
-    text.colour = event_ink;
-    canvas.text(plain(canvas.shortened(event_caption(shown), width, text)),
-                {x, box.bottom() + 0.8 * em_}, text);
+    std::string what = stages_[k]->ghost_caption(shown);
+    if (const std::string event = event_caption(shown); !event.empty()) {
+      what = event;
+      text.colour = event_ink;
+    }
+    canvas.text(plain(canvas.shortened(what, width, text)), {x, box.bottom() + 0.8 * em_}, text);
     if (one_bar_) return;
     const double length = std::min(width, 18 * em_);
     draw_timeline(canvas, {x - length / 2, box.bottom() + 1.7 * em_, length, 0.9 * em_},

@@ -8,6 +8,7 @@
 #include "engine/core/try.h"
 #include "engine/record/frame_values.h"
 #include "render/canvas/text.h"
+#include "render/movie/frame_overlay.h"
 #include "render/movie/run_summary.h"
 
 namespace gridshell::render {
@@ -211,7 +212,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   };
   TRY(figure, panels_of(runs, style, watch, columns, dress));
   figure->colour_bar = ColourBar{unit.label, scale};
-  figure->colour_bar->words = "distance from the net";
+  figure->colour_bar->words = "deviation from the net";
   return figure;
 }
 
@@ -236,12 +237,14 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const record::Frame& last = runs[k].run->frames.back();
     Drawing drawing = stages[k].drawing(last);
+    if (!stages[k].ghost_caption(last).empty()) figure.keys = {{ghost_ink, "unloaded"}};
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     // wider rods, since their colours are the result
     drawing.rod_diameter_mm *= 1.5 * wider;
+    const std::string depth = state_captions(last).front(),
+                      caption = several ? runs[k].caption + "\n" + depth : depth;
     TRY_DO(add_panel(figure, stages[k], std::move(drawing),
-                     {several, with_contacts(several ? runs[k].caption : "", last), wider}, nullptr,
-                     watch));
+                     {several, with_contacts(caption, last), wider}, nullptr, watch));
     watch.report(double(k + 1) / double(runs.size()));
   }
   return figure;
@@ -275,23 +278,24 @@ Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> pl
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
   const double column = width / double(columns), head = title.empty() ? 0 : figure_title_room;
-  Plot legend;
-  legend.series = plots.front().series;
-  legend.font_size = font;
+  for (Plot& plot : plots) plot.font_size = font;
+  const Plot legend = plots.front();
   const double key = legend_height(legend, width - 18) + 6;
-  for (Plot& plot : plots) {
-    plot.legend = LegendPosition::none;
-    plot.font_size = font;
-  }
+  // several plots have one legend above all of them
+  const bool common = plots.size() > 1;
+  for (Plot& plot : plots)
+    if (common) plot.legend = LegendPosition::none;
   return write_figure(
       stem, width, head + key + height * double(rows), name,
       [&](Canvas& canvas) {
         if (head > 0) draw_figure_title(canvas, title);
-        draw_legend(canvas, {9, head + 2, width - 18, key}, legend);
+        if (common) draw_legend(canvas, {9, head + 2, width - 18, key}, legend);
         for (std::size_t k = 0; k < plots.size(); ++k) {
           const std::size_t row = k / columns;
-          const double x = column * double(k % columns), y = head + key + height * double(row);
-          draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
+          const double x = column * double(k % columns),
+                       y = head + (common ? key : 0) + height * double(row);
+          draw_plot(canvas, {x + 3, y + 3, column - 6, (common ? height : height + key) - 6},
+                    plots[k]);
         }
       },
       print);

@@ -130,7 +130,8 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
                                 Watch& watch);
 
 /// Force (N) over depth (mm) of all frames of each run. Dashed lines join the states before and
-/// after a snap, dotted lines are unstable states.
+/// after a snap, dotted lines are unstable states. The largest force is marked if the force then
+/// falls.
 Plot force_plot(const std::vector<NamedRun>& runs);
 
 /// Writes plots of K□ of the cells in bins of x/L at the last frame over the grey bars of the

@@ -71,7 +71,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   const Box length = draw_spacing(canvas, left, runs.front().run->layout, plan.scale);
   if (runs.size() == 1) {
     const Point at{length.right() + 10, left.y};
-    const std::string text = "flat footprint; dashed: actuated boundary";
+    const std::string text = "solid: original, dashed: actuated boundary";
     canvas.text(
         text, at,
         canvas.fitted(text, canvas.width() - at.x - 4, {.size = 8, .align_y = AlignY::middle}));
@@ -165,11 +165,14 @@ void draw_figure_title(Canvas& canvas, const std::string& title) {
 }
 
 Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, double scale) {
-  const double end = left.x + scale * layout.spacing_mm;
+  // one spacing may be as short as a letter
+  const int spacings = scale * layout.spacing_mm < 8 ? 5 : 1;
+  const double end = left.x + scale * spacings * layout.spacing_mm;
   canvas.line(left, {end, left.y}, {ink, 1});
   for (const double x : {left.x, end}) canvas.line({x, left.y - 2.2}, {x, left.y + 2.2}, {ink, 1});
-  return canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm), {end + 4, left.y},
-                     {.size = 8, .align_y = AlignY::middle});
+  return canvas.text(
+      fmt::format("{}*d* = {:g} mm", spacings > 1 ? "5 " : "", spacings * layout.spacing_mm),
+      {end + 4, left.y}, {.size = 8, .align_y = AlignY::middle});
 }
 
 Plot curvature_plot(const std::vector<NamedRun>& runs) {
@@ -186,7 +189,9 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
     const auto ends = run.layout.actuated_boundary.row(0);
     const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
     const Eigen::Matrix3Xd joints = joints_of(run);
-    Series series = mark_series(runs[r].name, series_colour(r), series_marker(r), 3.2);
+    // marks of several runs are hollow; from the fifth on, shapes are repeated filled
+    Series series = mark_series(runs[r].name, series_colour(r), series_marker(r), 3.2,
+                                runs.size() > 1 && r < 4);
     for (std::size_t k = 0; k < run.layout.cells.size(); ++k) {
       double x = 0;
       for (int joint : run.layout.cells[k].joints) x += joints(0, joint) / 4;

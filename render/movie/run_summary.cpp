@@ -1,11 +1,14 @@
 #include "render/movie/run_summary.h"
 
+#include <Eigen/Geometry>
 #include <limits>
+#include <span>
 
 namespace gridshell::render {
 namespace {
 
 constexpr double gap_mm = 2.5;  // between joint and arrow
+constexpr int many_loads = 25;  // fewer are no load of an area
 
 /// An arrow at a node with the length and direction of `arrow`, outside the shell.
 LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int node,
@@ -17,6 +20,31 @@ LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int
   const bool away = along.dot(at - middle) > 0.02 * layout.length_scale_mm;
   const Eigen::Vector3d near = at + (away ? gap : -gap) * along;
   return away ? LoadArrow{node, near, near + arrow} : LoadArrow{node, near - arrow, near};
+}
+
+/// Arrows of one length with their tips at the nodes that are nearest to the middles of even
+/// squares of the flat footprint, so that a load on an area does not look like point loads.
+std::vector<LoadArrow> area_arrows(const record::Layout& layout, const record::Frame& frame,
+                                   Eigen::Index known) {
+  constexpr int squares = 5;  // per side of the box around the footprint
+  const auto nodes = std::span(layout.supports).first(std::size_t(known));
+  const Eigen::Matrix3Xd& flat = layout.flat_nodes.cols() > 0 ? layout.flat_nodes : frame.nodes;
+  const auto at = [&](int node) { return Eigen::Vector2d(flat.col(node).head<2>()); };
+  Eigen::AlignedBox2d box;
+  for (const int node : nodes) box.extend(at(node));
+  const Eigen::Vector2d side = box.sizes() / squares;
+  std::vector<LoadArrow> arrows;
+  for (int k = 0; k < squares * squares; ++k) {
+    const Eigen::Vector2d middle =
+        box.min() + side.cwiseProduct(Eigen::Vector2d(k % squares + 0.5, k / squares + 0.5));
+    const auto nearest = std::ranges::min_element(
+        nodes, {}, [&](int node) { return (at(node) - middle).squaredNorm(); });
+    const Eigen::Vector3d load = frame.loads_N.col(nearest - nodes.begin());
+    const Eigen::Vector3d tip = frame.nodes.col(*nearest);
+    if (((at(*nearest) - middle).array().abs() < 0.35 * side.array()).all() && !load.isZero(0))
+      arrows.push_back({*nearest, tip - longest_force(layout) * load.normalized(), tip});
+  }
+  return arrows;
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -116,22 +144,26 @@ std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::
   std::vector<LoadArrow> arrows;
   if (!(largest_N > 0) || layout.actuated_boundary.cols() == 0) return arrows;
   const auto known = std::min<Eigen::Index>(frame.loads_N.cols(), long(layout.supports.size()));
-  // a load on an area has a few arrows, all of one length
-  constexpr Eigen::Index most = 16;
-  const bool area = loads_all_alike(frame);
-  const Eigen::Index stride = area ? (known + most - 1) / most : 1;
-  for (Eigen::Index k = 0; k < known; k += stride) {
+  if (loads_all_alike(frame)) return area_arrows(layout, frame, known);
+  for (Eigen::Index k = 0; k < known; ++k) {
     const Eigen::Vector3d force = frame.loads_N.col(k) / largest_N;
     const int node = layout.supports[std::size_t(k)];
-    const double length = longest_force(layout) * (area ? 1 / force.norm() : 1);
     if (force.norm() > 0.01 && node < frame.nodes.cols())
-      arrows.push_back(arrow_at(layout, frame, node, length * force, 0));
+      arrows.push_back(arrow_at(layout, frame, node, longest_force(layout) * force, 0));
   }
   return arrows;
 }
 
+Eigen::Matrix3Xd small_loads(const record::Frame& frame) {
+  const Eigen::RowVectorXd size = frame.loads_N.colwise().norm();
+  std::vector<Eigen::Index> small;
+  for (Eigen::Index k = 0; k < size.size(); ++k)
+    if (size[k] > 0 && size[k] < 0.1 * size.maxCoeff()) small.push_back(k);
+  if (std::ssize(small) < many_loads) small.clear();
+  return frame.loads_N(Eigen::all, small);
+}
+
 bool loads_all_alike(const record::Frame& frame) {
-  constexpr int many = 25;
   constexpr double least_cosine = 0.98;
   const Eigen::Vector3d sum = frame.loads_N.rowwise().sum();
   int count = 0;
@@ -142,7 +174,7 @@ bool loads_all_alike(const record::Frame& frame) {
     ++count;
   }
   // a load that is much larger than the others is a point load
-  return count >= many && frame.loads_N.colwise().norm().maxCoeff() < 10 * sum.norm() / count;
+  return count >= many_loads && frame.loads_N.colwise().norm().maxCoeff() < 10 * sum.norm() / count;
 }
 
 void Interval::take(double value) {

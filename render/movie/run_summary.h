@@ -44,9 +44,13 @@ std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::F
 /// Whether the loads are those of an area: on many nodes, in one direction and of similar size.
 bool loads_all_alike(const record::Frame& frame);
 
+/// The loads that are much smaller than the largest one, 3 x n, if they are many: of the weight, or
+/// of an area. Their arrows are too short to be seen.
+Eigen::Matrix3Xd small_loads(const record::Frame& frame);
+
 /// Arrows of Frame::loads_N, outside the shell. The largest load of the run, `largest_N`, has an
 /// arrow of longest_force() mm, others in proportion; loads below a hundredth of it are left out.
-/// Loads of an area are shown by a few arrows of that length.
+/// Loads of an area are shown by at most 25 arrows of that length, evenly over the footprint.
 std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
                                     double largest_N);
 inline double longest_force(const record::Layout& layout) {

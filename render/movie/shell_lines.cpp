@@ -95,6 +95,25 @@ Colour faded(Colour colour, Colour background, double by) {
           colour.b + f * (background.b - colour.b), colour.a};
 }
 
+/// Draws an arrow along the view, from behind as ⊗ or from its tip as ⊙. Returns false, and draws
+/// nothing, if the arrow has another direction.
+bool draw_if_along_view(Canvas& canvas, const Arrow& arrow, const Eye& eye, double units_per_mm) {
+  const Seen from = eye(arrow.from), to = eye(arrow.to);
+  if (std::hypot(to.at.x - from.at.x, to.at.y - from.at.y) >
+      0.2 * units_per_mm * (arrow.to - arrow.from).norm())
+    return false;
+  const bool away = to.depth > from.depth;
+  const Point at = away ? from.at : to.at;
+  const double radius = std::max(3.2 * units_per_mm * arrow.diameter_mm, 3.0),
+               arm = radius * std::numbers::sqrt2 / 2;
+  const Stroke line{arrow.colour, 0.28 * radius};
+  canvas.circle(at, radius, white, line);
+  if (!away) canvas.circle(at, 0.34 * radius, arrow.colour);
+  for (const double side : {-arm, arm})
+    if (away) canvas.line({at.x - arm, at.y - side}, {at.x + arm, at.y + side}, line);
+  return true;
+}
+
 class Lines {
  public:
   Lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera)
@@ -222,25 +241,10 @@ class Lines {
     for (const PointMark& mark : drawing_.marks)
       canvas_.circle(eye_(mark.at).at, 0.5 * width(mark.diameter_mm), mark.colour,
                      {{0, 0, 0, 1}, 0.15 * width(mark.diameter_mm)});
-    for (const Arrow& arrow : drawing_.arrows) {
-      const Seen from = eye_(arrow.from), to = eye_(arrow.to);
-      const double length = (arrow.to - arrow.from).norm();
-      if (std::hypot(to.at.x - from.at.x, to.at.y - from.at.y) < 0.2 * width(length))
-        along_the_view(to.depth > from.depth ? from.at : to.at, to.depth > from.depth,
-                       {arrow.colour, width(arrow.diameter_mm)});
-      else
-        draw_arrow(canvas_, from.at, to.at, {arrow.colour, width(arrow.diameter_mm)});
-    }
-  }
-
-  /// Draws an arrow along the view, from behind as ⊗ or from its tip as ⊙.
-  void along_the_view(Point at, bool away, const Stroke& shaft) {
-    const double radius = std::max(3.2 * shaft.width, 3.0), arm = radius * std::numbers::sqrt2 / 2;
-    const Stroke line{shaft.colour, 0.28 * radius};
-    canvas_.circle(at, radius, {1, 1, 1, 1}, line);
-    if (!away) return canvas_.circle(at, 0.34 * radius, shaft.colour);
-    canvas_.line({at.x - arm, at.y - arm}, {at.x + arm, at.y + arm}, line);
-    canvas_.line({at.x - arm, at.y + arm}, {at.x + arm, at.y - arm}, line);
+    for (const Arrow& arrow : drawing_.arrows)
+      if (!draw_if_along_view(canvas_, arrow, eye_, units_per_mm_))
+        draw_arrow(canvas_, eye_(arrow.from).at, eye_(arrow.to).at,
+                   {arrow.colour, width(arrow.diameter_mm)});
   }
 
   Canvas& canvas_;
@@ -258,6 +262,15 @@ void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing,
                       const Camera& camera) {
   Lines lines(canvas, box, drawing, camera);
   for (const bool hidden : {true, false}) lines.draw(hidden);
+}
+
+void mark_arrows_along_view(Image& picture, const Drawing& drawing, const Camera& camera) {
+  if (drawing.arrows.empty()) return;
+  draw_over(picture, [&](Canvas& canvas) {
+    const Eye eye(camera, {0, 0, canvas.width(), canvas.height()});
+    for (const Arrow& arrow : drawing.arrows)
+      draw_if_along_view(canvas, arrow, eye, canvas.height() / (2 * camera.half_extent_mm));
+  });
 }
 
 std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera) {

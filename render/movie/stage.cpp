@@ -9,11 +9,10 @@
 #include "render/movie/run_plots.h"
 
 namespace gridshell::render {
-
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1}, ghost_ink{0.58f, 0.6f, 0.64f, 0.6f};
+    original_ink{0.66f, 0.67f, 0.7f, 1};
 
 // the style with a camera from the side, so that a pushed joint moves in the picture's plane; of
 // the two sides the one nearer to the style's azimuth
@@ -36,9 +35,9 @@ MovieStyle seen_across_push(MovieStyle style, const record::Layout& layout) {
 std::vector<std::vector<int>> thinned_rods(const record::Layout& layout) {
   constexpr double points = 4;
   std::vector<std::vector<int>> rods;
-  std::size_t stretches = 0, edges = 0;
+  const std::size_t stretches = 2 * layout.joints.size() + layout.rods.size();
+  std::size_t edges = 0;
   for (const auto& rod : layout.rods) edges += rod.size();
-  stretches = 2 * layout.joints.size() + layout.rods.size();
   const auto stride = std::size_t(std::max(1.0, double(edges) / (points * double(stretches))));
   for (const auto& rod : layout.rods) {
     std::vector<int>& thin = rods.emplace_back();
@@ -217,13 +216,14 @@ std::optional<ArrowKey> Stage::arrow_key() const {
   return render::arrow_key(run_, survey_.largest_load_N);
 }
 
-// whether the shell has moved but its boundary has not
-bool Stage::changed(const record::Frame& frame) const {
+std::string Stage::ghost_caption(const record::Frame& frame) const {
   constexpr double least = 0.01;  // of the length scale
-  return frame.nodes.cols() == survey_.first.nodes.cols() &&
-         frame.actuation == survey_.first.actuation &&
-         survey_.largest_move_mm > least * run_.length_scale_mm &&
-         frame.nodes != survey_.first.nodes;
+  // the shell has moved but its boundary has not
+  const bool shown = style_.look.ghost && frame.nodes.cols() == survey_.first.nodes.cols() &&
+                     frame.actuation == survey_.first.actuation &&
+                     survey_.largest_move_mm > least * run_.length_scale_mm &&
+                     frame.nodes != survey_.first.nodes;
+  return !shown ? "" : std::isfinite(frame.depth_mm) ? "grey: unloaded" : "grey: first state";
 }
 
 Drawing Stage::drawing(const record::Frame& frame) const {
@@ -248,10 +248,6 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.joint_diameter_mm = 0.5 * *std::ranges::max_element(drawing.laths_mm);
   drawing.cell_colours = cell_colours(frame);
   drawing.node_colours = node_colours(frame);
-  // a red joint would look like tension
-  if (style_.colour_by == ColourBy::axial_force && !look.joint_chosen &&
-      look.joint == Appearance{}.joint)
-    drawing.joint_colour = look.rod;
   // rods are wider so that their colours are visible
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
   // the actuated boundary is drawn last and covers the original one where they coincide
@@ -263,7 +259,9 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   }
   if (look.supports && drawing.joint_diameter_mm > 0)
     put_supports(run_, frame, survey_.supported, look, drawing);
-  if (look.ghost && changed(frame))
+  // joints, which shine, would look like interruptions of colours
+  if (!drawing.node_colours.empty() && !look.joint_chosen) drawing.joint_diameter_mm = 0;
+  if (!ghost_caption(frame).empty())
     // behind the moved shell, whose colours it would cover if seen from above
     drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
                               0.8 * drawing.rod_diameter_mm, ghost_ink,
@@ -294,6 +292,7 @@ Result<Image> Stage::draw_views(Renderer& renderer, const ShownFrame& shown) con
   const DrawQuality quality = draw_quality(style_);
   if (panels_.size() == 1) {
     auto picture = renderer.draw(drawn, camera(shown.at), quality, style_.width(), style_.height());
+    if (picture) mark_arrows_along_view(*picture, drawn, camera(shown.at));
     // a shell that is larger than its panel ends at the panel's edge
     if (picture && !layout_.view.inset(-1).contains(shell_box()))
       clear_outside(*picture, layout_.view, style_.look.background);
@@ -304,6 +303,7 @@ Result<Image> Stage::draw_views(Renderer& renderer, const ShownFrame& shown) con
     auto part = renderer.draw(drawn, framings_[k].camera(moment(shown.at)), quality,
                               int(panels_[k].width), int(panels_[k].height));
     if (!part) return part;
+    mark_arrows_along_view(*part, drawn, framings_[k].camera(moment(shown.at)));
     parts.push_back(std::move(*part));
   }
   return draw_picture(style_.width(), style_.height(), 1, style_.look.background,
@@ -345,7 +345,9 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
   event.bold = true;
   const double room = layout_.title.width;
   double y = layout_.event.middle().y;
-  const auto said = lines_of_event(canvas, event_caption(shown.frame), room, event);
+  const std::string happened = event_caption(shown.frame);
+  if (happened.empty()) canvas.text(ghost_caption(shown.frame), {layout_.event.x, y}, line);
+  const auto said = lines_of_event(canvas, happened, room, event);
   if (said.size() > 1) event.halo = {1, 1, 1, 0.8f};  // the first of two is over the picture
   for (auto text = said.rbegin(); text != said.rend(); ++text, y -= 1.3 * em)
     canvas.text(plain(canvas.shortened(*text, room, event)), {layout_.event.x, y}, event);

@@ -64,6 +64,8 @@ class Stage {
 
   /// the geometry of a frame
   Drawing drawing(const record::Frame& frame) const;
+  /// "grey: unloaded", if the first state is drawn behind the frame; otherwise empty
+  std::string ghost_caption(const record::Frame& frame) const;
   /// the camera of frame `at`
   Camera camera(int at) const;
 
@@ -82,7 +84,6 @@ class Stage {
   std::vector<Colour> cell_colours(const record::Frame& frame) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
   void draw_captions(Canvas& canvas, const ShownFrame& shown) const;
-  bool changed(const record::Frame& frame) const;
   double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }
 
   const record::Layout& run_;
@@ -103,6 +104,9 @@ class Stage {
 /// camera sees them. Hidden ones are drawn first, faded by the larger of 0.55 and the drawing's
 /// far_fade; at a far_fade of 1 they are left out.
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera);
+
+/// Draws ⊗ or ⊙ over a picture of the drawing where an arrow is along the view.
+void mark_arrows_along_view(Image& picture, const Drawing& drawing, const Camera& camera);
 
 /// A function that draws the shell; it owns copies of the drawing and its layout.
 std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera);

@@ -87,6 +87,7 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
                        std::string caption) {
   // the caption has one row
   if (const auto end = caption.find('\n'); end != std::string::npos) caption.replace(end, 1, ": ");
+  if (const auto ghost = stage.ghost_caption(shown.frame); !ghost.empty()) caption += ", " + ghost;
   stage.draw_overlay(canvas, shown);
   const FrameLayout& layout = stage.layout();
   const Box& room = layout.heading;
@@ -103,7 +104,8 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const double size = fitted.size;
   double y = said.bottom() + size;
   if (const auto loads = load_caption(shown.frame); !loads.empty() && stage.style().look.loads) {
-    canvas.text(loads, {room.x, y}, {.size = size, .align_y = AlignY::middle});
+    canvas.text(loads, {room.x, y},
+                canvas.fitted(loads, room.width, {.size = size, .align_y = AlignY::middle}));
     y += 1.3 * size;
   }
   const std::string contacts = contact_caption(shown.frame);
@@ -172,6 +174,8 @@ Result<std::vector<std::filesystem::path>> write_stills(
     figure.panels.push_back({around(panel, shown.shell_box()),
                              stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
                              with_marks(caption, frame, style.look)});
+    if (const auto ghost = stage.ghost_caption(frame); !ghost.empty() && figure.keys.empty())
+      figure.keys = {{ghost_ink, ghost.substr(ghost.find(' ') + 1)}};
     if (style.vector)
       figure.panels.back().lines =
           lines_around(shell_lines(shown.drawing(frame), shown.camera(k)), shown.style(),

@@ -140,7 +140,7 @@ void add_mark_legend(const std::vector<Curve>& curves, Plot& plot) {
     if (!limit.empty()) which += (which.empty() ? "" : ", ") + limit;
   if (!which.empty()) row("ended early: " + plain(which), Marker::circle, true);
   if (std::ranges::any_of(spots, std::logical_not(), &SweepMark::stable))
-    row("not stable", Marker::cross, false);
+    row("unstable", Marker::cross, false);
 }
 
 void add_failed(const std::vector<Curve>& curves, Plot& plot) {

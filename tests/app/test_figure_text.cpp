@@ -315,6 +315,12 @@ TEST_CASE("on a page texts overlap neither one another nor what is drawn", "[sha
       REQUIRE(app::draw_page(runs, maker.renderer(), stem, watch));
     }
     REQUIRE(boxes.size() > 3);
+    // a push is named by its shell and by its plot
+    for (const app::Run& run : records)
+      if (k == 4 && run.preset.indentation.requested())
+        CHECK(std::ranges::count_if(texts, [&](const std::string& text) {
+                return text.starts_with(render::plain(run.preset.title));
+              }) >= 2);
     const auto picture = value_of(render::read_png(fs::path(stem) += "_page.png"));
     const double scale = picture.width / width;
     for (std::size_t n = 0; n < boxes.size(); ++n) {

@@ -96,7 +96,7 @@ TEST_CASE("a point of one rod alone is no joint, bolts of rods above one another
   CHECK(vertices() == all);
 }
 
-TEST_CASE("rods throw shadows, a ring only when requested, ghosts never", "[scene]") {
+TEST_CASE("rods throw shadows, rings and arrows only when requested, ghosts never", "[scene]") {
   const auto shell = test::square_shell(4, 3);
   Drawing drawing = test::square_drawing(shell);
   drawing.rings.clear();
@@ -107,6 +107,11 @@ TEST_CASE("rods throw shadows, a ring only when requested, ghosts never", "[scen
   square << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
   drawing.rings.push_back({square, 1, {}, false});
   CHECK(count() == rods);
+  drawing.arrows.push_back({{0, 0, 0}, {0, 0, 20}, 1, {}, false});
+  CHECK(count() == rods);
+  drawing.arrows.back().shadow = true;
+  CHECK(count() > rods);
+  drawing.arrows.clear();
   drawing.rings.back().shadow = true;
   CHECK(count() == rods + 4 * 6);
   drawing.ghosts.push_back({drawing.nodes, shell.layout.rods, 0.5, {0, 0, 1, 1}});

@@ -28,7 +28,10 @@ TEST_CASE("bins show the deviations of both states, next to one another") {
   CHECK(spread.y_error == std::vector<double>{0.002, 0.004});
   CHECK(now.y_error == std::vector<double>{0.003, 0.004});
   CHECK(spread.x[0] < now.x[0]);
-  CHECK(plot.series[0].name == "unloaded, mean ± s.d.");
+  CHECK(plot.series[0].name == "unloaded, mean ± s.d. (left)");
+  CHECK(now.name == "loaded, mean ± s.d. (right)");
+  CHECK(plot.series[3].name == "mean of all cells, unloaded");
+  CHECK(plot.series[4].name == "mean of all cells, loaded");
 }
 
 TEST_CASE("the change of the bins has an axis of its own, symmetric about zero") {

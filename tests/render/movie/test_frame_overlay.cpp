@@ -85,11 +85,11 @@ TEST_CASE("a support on a spring is where its spring pulls from, with the spring
   const int node = run.layout.edge_points[2];
   run.layout.supports = {node};
   run.layout.sprung = {node};
-  run.layout.spring_N_per_mm = Eigen::Vector3d(0.05, 0.1, 0);
+  run.layout.spring_N_per_mm = Eigen::Vector3d(0.005, 0.01, 0);
   for (record::Frame& frame : run.frames.edit()) frame.reactions_N = Eigen::Vector3d(0.5, -0.2, 0);
   const Drawing drawing = Stage(run, MovieStyle{}).drawing(run.frames[1]);
   const Eigen::Vector3d rod = run.frames[1].nodes.col(node),
-                        support = rod + Eigen::Vector3d(10, -2, 0);
+                        support = rod + Eigen::Vector3d(100, -20, 0);
   REQUIRE(drawing.marks.size() == 1);
   CHECK((drawing.marks[0].at - support).norm() < 1e-9);
   REQUIRE(drawing.ghosts.size() == 1);
@@ -104,4 +104,21 @@ TEST_CASE("a support on a spring is where its spring pulls from, with the spring
   CHECK(drawing_error(unloaded).empty());
   REQUIRE(unloaded.marks.size() == 1);
   CHECK((unloaded.marks[0].at - flat.nodes.col(node)).norm() == 0);
+  // one that is stiff, and so short, is longer than its ball
+  run.layout.spring_N_per_mm *= 100;
+  const Drawing stiff = Stage(run, MovieStyle{}).drawing(run.frames[1]);
+  CHECK((stiff.ghosts[0].nodes.rightCols(1) - rod).norm() ==
+        Approx(3 * stiff.marks[0].diameter_mm));
+  CHECK((stiff.marks[0].at - stiff.ghosts[0].nodes.rightCols(1)).norm() < 1e-9);
+  // the direction of one without force would be that of round-off
+  for (record::Frame& frame : run.frames.edit()) frame.reactions_N *= 1e-12;
+  CHECK((Stage(run, MovieStyle{}).drawing(run.frames[1]).marks[0].at - rod).norm() < 1e-6);
+}
+
+TEST_CASE("the caption of loads names what is distributed") {
+  record::Frame weighed;
+  weighed.loads_N = Eigen::Vector3d(0, 0, -1).replicate(1, 30);
+  CHECK(load_caption(weighed) == "loads 30 N, distributed (arrows not to scale)");
+  weighed.loads_N(2, 0) = -29;
+  CHECK(load_caption(weighed) == "loads 58 N (50 % distributed)");
 }

@@ -1,10 +1,14 @@
 // Figures of runs show the numbers they are given.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "render/movie/run_figures.h"
 #include "render/movie/run_plots.h"
+#include "tests/render/canvas/ink.h"
 #include "tests/render/synthetic.h"
+#include "tests/results.h"
+#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -89,6 +93,35 @@ TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest
   CHECK(quantile_plot({{&run, "shell"}}).y.label == "deviation from the net, Δ (mm)");
 }
 
+TEST_CASE("marks of six shells differ in shape or filling") {
+  const record::Trajectory run = one_cell();
+  const Plot plot = curvature_plot(std::vector<NamedRun>(6, {&run, "shell"}));
+  std::set<std::pair<Marker, bool>> looks;
+  for (const Series& series : plot.series) looks.insert({series.marker, series.hollow});
+  CHECK(looks.size() == 6);
+}
+
+TEST_CASE("a saddle has one colour, whichever blocks are next to it") {
+  record::Trajectory two = one_cell(), three = one_cell();
+  for (const char* name : {"quarter sphere 1", "saddle"})
+    two.layout.parts.emplace_back().name = name;
+  for (const char* name : {"quarter sphere 1", "half cylinder", "saddle"})
+    three.layout.parts.emplace_back().name = name;
+  const BlockKinds of_two({{&two, ""}}), of_three({{&three, ""}});
+  CHECK(of_two.colour("saddle") == of_three.colour("saddle"));
+  CHECK_FALSE(of_two.colour("saddle") == of_two.colour("quarter sphere 2"));
+}
+
+TEST_CASE("seams with equal gaps and kinks are called equal") {
+  record::Trajectory run = one_cell();
+  for (const char* seam : {"a.east - b.west", "b.east - c.west"})
+    for (const double line : {10.0, 30.0})
+      run.layout.seam_rods.push_back({seam, 'u', line, 1, line});
+  CHECK(seam_plots(run)[0].series[1].name == "b east – c west (equal)");
+  run.layout.seam_rods.back().gap_mm = 2;
+  CHECK(seam_plots(run)[0].series[1].name == "b east – c west");
+}
+
 TEST_CASE("seams are plotted about their middles, gap and kink") {
   record::Trajectory run = one_cell();
   run.layout.seam_rods = {{"a.east - b.west", 'u', 30, 1.5, 7},
@@ -161,7 +194,7 @@ TEST_CASE("a snap is straight down at the depth where it is, with its name once"
   snapped.stiffness_N_per_mm = 0.1;
   run.frames.edit().back() = snapped;
   const Plot plot = force_plot({{&run, "a"}, {&run, "b"}});
-  REQUIRE(plot.series.size() == 4);
+  REQUIRE(plot.series.size() == 5);
   const Series &way = plot.series[0], &snap = plot.series[1];
   REQUIRE(way.y.size() == 4);
   CHECK(std::isnan(way.y[2]));
@@ -171,17 +204,67 @@ TEST_CASE("a snap is straight down at the depth where it is, with its name once"
   // extrapolated from the forces and stiffnesses on both sides
   CHECK((snap.y[0] == Approx(0.1) && snap.y[1] == Approx(0.1 - 1.1 * 0.05)));
   CHECK((snap.y[2] == Approx(0.4 - 0.9 * 0.1) && snap.y[3] == Approx(0.4)));
-  CHECK(snap.name == "snap to another state");
-  CHECK(plot.series[3].name.empty());
+  // the row of the legend has the colour of no run
+  CHECK((snap.name.empty() && plot.series[3].name.empty()));
+  const Series& key = plot.series[4];
+  CHECK((key.name == "snap to another state" && key.x.empty() && key.dash == snap.dash));
+  CHECK((key.colour.r != snap.colour.r && key.colour.r != plot.series[3].colour.r));
+  // both runs are visible where they are equal
+  CHECK(way.line_width > plot.series[2].line_width);
+  CHECK(snap.line_width > plot.series[3].line_width);
+}
+
+TEST_CASE("the largest force is marked if the force then falls") {
+  record::Trajectory run = pushed();
+  CHECK(test::series_named(force_plot({{&run, "a"}}), "largest force") == nullptr);
+  run.frames.edit()[2].force_N = 0.05;
+  const Plot plot = force_plot({{&run, "a"}});
+  REQUIRE(plot.series.size() == 3);
+  CHECK(plot.series[1].x == std::vector<double>{2});
+  CHECK(plot.series[1].y[0] == Approx(0.1));
+  CHECK(plot.series[2].name == "largest force");
+}
+
+TEST_CASE("pushed shells have their depth, and the grey shape its name") {
+  record::Trajectory run = pushed();
+  for (record::Frame& frame : run.frames.edit()) frame.actuation = 1;
+  MovieStyle style;
+  style.size = {64, 48};
+  style.title = "title";
+  Watch watch;
+  const auto two = value_of(draw_pushes({{&run, "inward"}, {&run, "outward"}}, style, watch));
+  CHECK(two.panels[1].caption == "outward\n*δ* = 4.00 mm");
+  REQUIRE(two.keys.size() == 1);
+  CHECK(two.keys[0].name == "unloaded");
+  CHECK(value_of(draw_pushes({{&run, "inward"}}, style, watch)).panels[0].caption ==
+        "*δ* = 4.00 mm");
+  style.look.ghost = false;
+  CHECK(value_of(draw_pushes({{&run, "inward"}}, style, watch)).keys.empty());
+}
+
+TEST_CASE("one plot has its legend below its title, several have one above all") {
+  const record::Trajectory run = pushed();
+  const TemporaryFolder folder;
+  for (const std::size_t count : {1, 2}) {
+    double title = 0, legend = 0;
+    const test::CanvasObserver observer([&](const Canvas& canvas) {
+      for (std::size_t k = 0; k < canvas.texts().size(); ++k) {
+        if (canvas.texts()[k].starts_with("push")) title = canvas.text_boxes()[k].y;
+        if (canvas.texts()[k].starts_with("mean of all")) legend = canvas.text_boxes()[k].y;
+      }
+    });
+    REQUIRE(write_push_bins(folder / "bins", std::vector<NamedRun>(count, {&run, "push"}), ""));
+    CHECK((legend > title) == (count == 1));
+  }
 }
 
 TEST_CASE("states that are not stable are dashed, and the line has a gap there") {
   record::Trajectory run = pushed();
   run.frames.edit()[2].negative_pivots = 1;
   const Plot plot = force_plot({{&run, "a"}});
-  REQUIRE(plot.series.size() == 2);
+  REQUIRE(plot.series.size() == 3);
   CHECK(std::isnan(plot.series[0].y[2]));
-  CHECK(plot.series[1].name == "unstable");
+  CHECK(plot.series[2].name == "unstable");
   CHECK(plot.series[1].dash.size() == 2);
   CHECK((plot.series[1].x[0] == 2 && plot.series[1].x[1] == 4));
 }

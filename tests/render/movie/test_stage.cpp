@@ -179,8 +179,12 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
   // seen from above, the ghost does not cover the colours of parts that moved down
   CHECK(drawing.ghosts[0].behind_mm >= summarise_run(run).largest_move_mm);
   CHECK(Stage(run, style).drawing(run.frames[0]).ghosts.empty());
+  // named where no event is
+  CHECK(test::has(texts_of(Stage(run, style), run, 1), "grey: first state"));
+  run.frames.edit()[1].depth_mm = 1;
+  CHECK(test::has(texts_of(Stage(run, style), run, 1), "grey: unloaded"));
   style.look.ghost = false;
-  CHECK(Stage(run, style).drawing(run.frames[2]).ghosts.empty());
+  CHECK_FALSE(test::has(texts_of(Stage(run, style), run, 1), "grey: unloaded"));
 
   run.layout.loaded_joints = {{0, Eigen::Vector3d(-1, -1, -1).normalized()}};
   style.view = preset::View::push;

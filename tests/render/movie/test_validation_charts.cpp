@@ -79,8 +79,9 @@ TEST_CASE("outcome map: all texts are there and lie inside") {
   const double width = 400, height = outcome_maps_height(cells(), width);
   (void)draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
     draw_outcome_maps(canvas, {0, 0, width, height}, cells(), "A shell");
-    for (const char* requested : {"A shell", "full steps", "default", "load steps", "10−6", "1",
-                                  "4", "silent wrong", "silent: planar saddle", "right"}) {
+    for (const char* requested :
+         {"A shell", "full steps", "default", "load steps", "10−6", "1", "4", "silent wrong",
+          "silent: planar saddle", "right", "diverged", "load steps; rows: edges per segment"}) {
       CAPTURE(requested);
       CHECK(test::has(canvas.texts(), requested));
     }

@@ -5,7 +5,9 @@
 
 #include "render/gl/renderer.h"
 #include "tests/render/gl/picture.h"
+#include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -87,4 +89,28 @@ TEST_CASE("an arrow along the view is a ring with a cross or a dot in it") {
   }
   CHECK(ink_at(20, 0, 3, 3) > 200);  // into the picture
   CHECK(ink_at(0, 20, 3, 3) < 50);
+}
+
+TEST_CASE("a push along the view has a sign in pictures too") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  run.layout.loaded_joints = {{3, -Eigen::Vector3d::UnitZ()}};
+  for (const double elevation : {90.0, 20.0}) {
+    MovieStyle style;
+    style.size = {640, 480};
+    style.elevation_deg = elevation;
+    for (const bool two : {false, true}) {
+      style.views = {};
+      if (two) style.views = {{0, elevation}};
+      gridshell::test::FakeRenderer renderer;
+      const Stage stage(run, style);
+      const Image picture = value_of(stage.draw_views(renderer, {run.frames[2], 2}));
+      // the sign is white inside, which nothing else in the views is
+      const Box& view = stage.layout().view;
+      int white = 0;
+      for (int y = int(view.y) + 2; y < int(view.bottom()) - 2; ++y)
+        for (int x = int(view.x) + 2; x < int(view.right()) - 2; ++x)
+          white += picture.pixel(x, y)[0] == 255;
+      CHECK((white > 0) == (elevation == 90));
+    }
+  }
 }
