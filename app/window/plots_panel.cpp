@@ -124,7 +124,7 @@ class PlotBox {
       while (from < end && !known(from)) ++from;
       std::size_t to = from;
       while (to < end && known(to)) ++to;
-      // one by one: a polyline becomes thin where it turns back on itself
+      // one by one: a polyline becomes thin at a sharp corner
       for (std::size_t k = from; k + 1 < to; ++k)
         list_.AddLine(points[k], points[k + 1], shade, panel_.px(1.4));
       if (to == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), shade);
