@@ -27,6 +27,7 @@ class PageMaker {
       : records_(records), renderer_(renderer), watch_(watch) {
     style_ = style_of(records.front()->preset, Pictures::stills);
     style_.look.letters = false;
+    style_.look.joint_mm *= 0.6;  // rods are thin lines
     style_.scale_bar_mm = 0;
     style_.title.clear();
     // vector graphics, which have no light and shadow
@@ -131,10 +132,9 @@ class PageMaker {
   /// distances from the centre with scanned joints. D: deviations of the caps. E, F: the shell of
   /// the strainer and its domain.
   Result<Page> fig3() {
-    Page page{178, 134, {}};
     const double top = has_photo() ? 54 : 0;
+    Page page{178, 134 + top, {}};
     if (has_photo()) TRY_DO(add_photo(page, "A", {2, 2, 52, 50}));
-    page.height_mm += top;
     const auto strainer = std::ranges::find(records_, "strainer", &Run::name) - records_.begin();
     const std::size_t caps = std::min(shells_.size(), std::size_t(strainer));
     const std::vector<render::NamedRun> of_caps(named_shells_.begin(),

@@ -107,7 +107,7 @@ render::Plot lives_plot(const record::StateTables& states) {
   plot.x = {.label = "elastic energy at the end of the path (mJ)"};
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
-  plot.y = {.label = circle ? "exists up to *R*_{a} (mm); actuation ←" : "exists from progress"};
+  plot.y = {.label = circle ? "up to *R*_{a} (mm); actuation ←" : "exists from progress"};
   plot.legend = render::LegendPosition::above;
   plot.series = by_class(states.rows, [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;

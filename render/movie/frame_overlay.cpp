@@ -238,9 +238,10 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
     Eigen::Vector3d stretch =
         (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
     // a shorter spring would be hidden by its ball; one without force has no direction
-    if (stretch.norm() > 1e-4 * layout.length_scale_mm)
+    if (stretch.norm() > 1e-4 * layout.length_scale_mm) {
       stretch *= std::max(1.0, 3 * size / stretch.norm());
-    if (!stretch.isZero(0)) add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
+      add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
+    }
     drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
   }
   if (!springs.rods.empty()) drawing.ghosts.push_back(std::move(springs));

@@ -171,7 +171,7 @@ Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, doubl
   canvas.line(left, {end, left.y}, {ink, 1});
   for (const double x : {left.x, end}) canvas.line({x, left.y - 2.2}, {x, left.y + 2.2}, {ink, 1});
   return canvas.text(
-      fmt::format("{}*d* = {:g} mm", spacings > 1 ? "5 " : "", spacings * layout.spacing_mm),
+      fmt::format("{}*d* = {:g} mm", spacings > 1 ? "5 *d*; " : "", layout.spacing_mm),
       {end + 4, left.y}, {.size = 8, .align_y = AlignY::middle});
 }
 
