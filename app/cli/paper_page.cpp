@@ -192,7 +192,7 @@ class PageMaker {
   /// Panels A: shells over their nets. B: K□ of the cells. C, D: the same for pushed shells.
   Result<Page> fig4() {
     Page page{178, 199, {}};
-    const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
+    const Box above{2, 2, 174, 44}, middle{2, 93, 174, 52};
     // the axis along which B and D are plotted
     shells_.front().half_span = true;
     TRY(over,
