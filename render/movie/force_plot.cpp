@@ -100,6 +100,25 @@ std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
   return bands;
 }
 
+/// Whether `other` has the force of most points of a curve at the same depth, within a hundredth.
+bool is_mostly_on(const Series& curve, const Series& other) {
+  constexpr double near = 0.01;  // of the largest force
+  double largest = 0;
+  for (const double force : curve.y) largest = std::fmax(largest, std::abs(force));
+  std::size_t on = 0;
+  for (std::size_t n = 0; n < curve.x.size(); ++n) {
+    double apart = INFINITY;
+    for (std::size_t k = 1; k < other.x.size(); ++k) {
+      const double part = (curve.x[n] - other.x[k - 1]) / (other.x[k] - other.x[k - 1]);
+      if (part >= 0 && part <= 1)
+        apart = std::fmin(
+            apart, std::abs(other.y[k - 1] + part * (other.y[k] - other.y[k - 1]) - curve.y[n]));
+    }
+    on += apart <= near * largest;
+  }
+  return 2 * on > curve.x.size();
+}
+
 /// A mark at the largest force, if the force then falls.
 Series peak_of(const Series& pushed) {
   Series peak = mark_series("", pushed.colour, Marker::circle, 4, true);
@@ -132,16 +151,22 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
     plot.series.push_back(std::move(pieces));
   };
   const bool banded = errors_seen(runs);
+  std::vector<Series> curves;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    // earlier lines are wider, so that they are visible where a later one is on them
-    const double later = double(runs.size() - 1 - k) / double(runs.size());
-    Series series =
-        line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k), 1 + 1.6 * later);
+    Series& curve =
+        curves.emplace_back(line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k)));
     // with many frames there are no markers, which would cover the line
     constexpr std::size_t most_marked = 24;
-    if (runs[k].run->frames.size() <= most_marked) series.marker = series_marker(k);
-    for (const record::Frame& frame : runs[k].run->frames)
-      series.add(frame.depth_mm, frame.force_N);
+    if (runs[k].run->frames.size() <= most_marked) curve.marker = series_marker(k);
+    for (const record::Frame& frame : runs[k].run->frames) curve.add(frame.depth_mm, frame.force_N);
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Series& series = curves[k];
+    // wider by each later one that is on it
+    series.line_width +=
+        0.8 *
+        double(std::count_if(curves.begin() + long(k) + 1, curves.end(),
+                             [&](const Series& later) { return is_mostly_on(series, later); }));
     for (Band& band : banded ? error_bands(*runs[k].run, series_colour(k)) : std::vector<Band>()) {
       if (plot.bands.empty()) band.name = "error of the force";
       plot.bands.push_back(std::move(band));

@@ -212,6 +212,11 @@ TEST_CASE("a snap is straight down at the depth where it is, with its name once"
   // both runs are visible where they are equal
   CHECK(way.line_width > plot.series[2].line_width);
   CHECK(snap.line_width > plot.series[3].line_width);
+  // and as wide where they are not
+  record::Trajectory stiffer = run;
+  for (record::Frame& frame : stiffer.frames.edit()) frame.force_N *= 2;
+  const Plot differ = force_plot({{&run, "a"}, {&stiffer, "b"}});
+  CHECK(differ.series[0].line_width == differ.series[2].line_width);
 }
 
 TEST_CASE("the largest force is marked if the force then falls") {
