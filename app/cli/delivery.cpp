@@ -236,7 +236,8 @@ void Progress::show_now() {
       progress_of(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
   const std::string label = phases_[current].label + path_text(*watches_.back(), pace_);
   if (show_ == Show::bar) {
-    std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
+    // a line longer than the terminal must not wrap, as "\r" returns to its last row alone
+    std::fprintf(stderr, "\r\033[K\033[?7l%s\033[?7h", bar_text(at, label, 40).c_str());
     bar_open_ = true;
   }
   const int tenth = int(at.fraction * 10);

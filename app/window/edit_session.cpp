@@ -22,7 +22,8 @@ LevelPlan drag_plan(const Scene& scene, const LevelPlan& now) {
   constexpr std::size_t small = 4800;
   if (scene.footprint.joints.size() * std::size_t(now.edges_per_segment.back()) <= small)
     return now;
-  return {{simulate::initial_levels(scene).edges_per_segment.front()}, false};
+  const int coarsest = simulate::initial_levels(scene).edges_per_segment.front();
+  return {{std::max(coarsest, scene.base_edges)}, false};
 }
 
 void EditSession::execute(const Command& command, const Watch& watch) {

@@ -148,6 +148,7 @@ Result<std::vector<InputEvent>> read_events(const std::string& text, const std::
     ++number;
     const auto begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#') continue;
+    line.erase(0, begin);
     // removes a comment; the text of `type` and `open` may contain " #"
     if (!line.starts_with("type") && !line.starts_with("open"))
       line.erase(std::min(line.find(" #"), line.size()));

@@ -208,17 +208,18 @@ void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
   }
 }
 
-/// Computes the lowest mode of an unstable state on the coarsest mesh, and interpolates it to the
-/// finest one, with a largest displacement of 1.
+/// Computes the lowest mode of an unstable state on the mesh next to the finest, and interpolates
+/// it to that, with a largest displacement of 1.
 void EditSession::update_lowest_mode() {
   view_.soft_mode.resize(3, 0);
   if (view_.stable()) return;
   NestedShell& shell = session_->shell();
-  const RodMesh& mesh = shell.mesh(0);
-  Linearisation& system = shell.system(0);
-  system.at(shell.state().levels[0], false);
+  const int level = std::max(0, shell.last() - 1);
+  const RodMesh& mesh = shell.mesh(level);
+  Linearisation& system = shell.system(level);
+  system.at(shell.state().levels[std::size_t(level)], false);
   const Eigen::Matrix3Xd mode = softest_mode(system, {}, unwatched);
-  const Eigen::Matrix3Xd coarse = nodes_of(mesh, shell.model(0), mode);
+  const Eigen::Matrix3Xd coarse = nodes_of(mesh, shell.model(level), mode);
   Eigen::Matrix3Xd fine;
   if (shell.levels() > 1)
     MeshTransfer(mesh, shell.finest()).nodes(coarse, fine);

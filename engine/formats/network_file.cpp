@@ -166,6 +166,10 @@ std::string network_error(const NetworkData& network) {
              "rigid, and may end "
              "with "
              "an eccentricity_mm";
+    if (row[0] == every_joint && row.size() == 4 && row[3] != 0)
+      return "joint_laws: got an eccentricity_mm in the row of all others (point -1), expected it "
+             "in "
+             "the rows of single joints, or [joints] eccentricity_mm";
     if (!ruled.insert(row[0]).second)
       return row[0] == every_joint
                  ? std::string("got two laws for all joints, expected one")

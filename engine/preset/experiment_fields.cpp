@@ -295,9 +295,7 @@ void add_experiment_fields(std::vector<Field>& all) {
                "the rods have no strength, expected 0, or [rod] strength_MPa or yield_strain above "
                "0, and of [rod_v] where it differs",
                [](const Preset& preset, const Limits& of) {
-                 return of.max_utilisation > 0 &&
-                        (preset.rod.fibre_strength_MPa() == 0 ||
-                         (preset.rod_v.differs && preset.rod_v.fibre_strength_MPa() == 0));
+                 return of.max_utilisation > 0 && !preset.rods_have_strength();
                })
       .add<&Limits::contact>(
           "what happens if rods overlap away from their joints, joints' cylinders overlap, or a "

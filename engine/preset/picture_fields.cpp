@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
@@ -36,10 +39,9 @@ void add_movie(FieldList<Movie> list) {
                          [](const M& of) { return of.colour_by >= ColourBy::energy; })
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
                "\"utilisation\" is of a strength, expected another value, or [rod] strength_MPa or "
-               "yield_strain above 0",
+               "yield_strain above 0, and of [rod_v] where it differs",
                [](const Preset& preset, const M& of) {
-                 return of.colour_by == ColourBy::utilisation &&
-                        preset.rod.fibre_strength_MPa() == 0;
+                 return of.colour_by == ColourBy::utilisation && !preset.rods_have_strength();
                });
   const auto free_view = [&list] {
     list.unused({"view"}, "[movie] view replaces it",
@@ -74,7 +76,10 @@ void add_movie(FieldList<Movie> list) {
               [](const M& of) { return !of.bins; });
   rises(list, &M::bins_range);
   list.add<&M::views>("more views in each frame, next to each other, degrees")
-      .points({"azimuth", "elevation"});
+      .points({"azimuth", "elevation"})
+      .refused({}, "expected elevations between -90 and 90", [](const M& of) {
+        return std::ranges::any_of(of.views, [](const auto& row) { return std::abs(row[1]) > 90; });
+      });
   list.add<&M::seconds>(
           at_least(0),
           "duration of the movie without title and final still; 0: frames / fps, of few "

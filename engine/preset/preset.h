@@ -317,6 +317,10 @@ struct Preset {
   Figure figure;
   Page page;
 
+  /// Whether the strength of all rods is given in [rod] and, where it differs, in [rod_v].
+  bool rods_have_strength() const {
+    return rod.fibre_strength_MPa() > 0 && (!rod_v.differs || rod_v.fibre_strength_MPa() > 0);
+  }
   bool on_net() const {
     return footprint.kind == FootprintKind::net || footprint.kind == FootprintKind::blocks;
   }

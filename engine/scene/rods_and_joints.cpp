@@ -89,6 +89,20 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
     named[at] = true;
     rods[at].diameter_mm = row[2];
   }
+  // a rod with a diameter of its own has the wall of all
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    const FootprintRod& drawn = footprint.rods[r];
+    if (rods[r].rectangular() || rods[r].wall_mm == 0 || 2 * rods[r].wall_mm < rods[r].diameter_mm)
+      continue;
+    const std::string name =
+        drawn.number >= 0
+            ? fmt::format("rods[{}]", drawn.number)
+            : fmt::format("{}-rod {}", drawn.family == Family::u ? "u" : "v", drawn.index);
+    return invalid(
+        "[rod] wall_mm: got {:g} mm for {} of {:g} mm diameter, which is then not hollow, expected "
+        "below {:g}",
+        rods[r].wall_mm, name, rods[r].diameter_mm, 0.5 * rods[r].diameter_mm);
+  }
   return rods;
 }
 

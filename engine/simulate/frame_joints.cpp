@@ -56,7 +56,7 @@ void put_joints(const Simulation& simulation, record::Frame& frame) {
     const Energies energies = shell.energies(level);
     springs.push_back(columns_of({energies[Term::shear] + energies[Term::joint]}));
   }
-  const bool extrapolate = shell.extrapolates_forces();
+  const bool extrapolate = shell.extrapolates();
   const auto certified = [&](const std::vector<Eigen::Matrix3Xd>& levels, double& error) {
     CertifiedVectors found = certify_vectors(levels, extrapolate, false);
     error = found.error;

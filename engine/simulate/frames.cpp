@@ -93,7 +93,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
       put_rods(simulation.scene(), shell.mesh(k), shell.model(k), shell.state().levels.back(), at,
                frame);
   }
-  const bool extrapolate = shell.extrapolates_forces();
+  const bool extrapolate = shell.extrapolates();
   CertifiedVectors force =
       certify_forces(reactions, extrapolate, shell.model(last), by_term.back());
   put_reactions(std::move(force.value), frame);
@@ -105,8 +105,9 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.energies = by_term.back();
   if (extrapolate && by_term.size() > 1)
     frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
-  frame.energy_error_mJ =
-      certify_forces(energies, extrapolate, shell.model(last), by_term.back()).error;
+  frame.energy_error_mJ = std::max(
+      certify_forces(energies, extrapolate, shell.model(last), by_term.back()).error,
+      least_energy_error(shell.model(last), by_term.back(), shell.finest().edges_per_segment));
   put_joints(simulation, frame);
 }
 

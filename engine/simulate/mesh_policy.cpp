@@ -86,7 +86,7 @@ LevelPlan initial_levels(const Scene& scene) {
   const double growth = double(segments) / mesh_tolerances.segments;
   LevelPlan plan = scene.edges_per_segment > 0
                        ? plan_of_mesh(scene.edges_per_segment)
-                       : plan_levels(scene.tolerance / growth, scene.base_edges);
+                       : plan_levels(scene.tolerance, scene.base_edges, growth);
   if (scene.rods.contact.barrier.acts()) plan.extrapolate = false;  // as NestedShell::make()
   return plan;
 }
@@ -192,7 +192,7 @@ std::string why_so_fine(const EquilibriumPath& path) {
       fmt::format("the error estimate is {:.1g} of the tolerance, as ", worst / allowed);
   if (edges_of(path) > initial_levels(scene).edges_per_segment.back())
     return over + "coarser meshes do not have the events or states that finer ones have";
-  return over + (path.meshes.extrapolate
+  return over + (path.meshes.edges_per_segment.size() > 2
                      ? "the error of coarser meshes is usually above the tolerance"
                      : "on fewer meshes the error would not be known");
 }

@@ -117,7 +117,7 @@ void Simulation::put_push_errors(record::Frame& frame) const {
 Energies Simulation::energies() const {
   const int last = shell_->last();
   const Energies fine = shell_->energies(last);
-  return shell_->extrapolates_forces() ? extrapolated(fine, shell_->energies(last - 1)) : fine;
+  return shell_->extrapolates() ? extrapolated(fine, shell_->energies(last - 1)) : fine;
 }
 
 bool Simulation::locked() const {

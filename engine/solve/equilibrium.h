@@ -87,8 +87,8 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
 /// Perturbs an unstable state along `mode` (its lowest) to either side and follows the steepest
 /// descent to an equilibrium. Returns the one of lower energy, or the one on the requested side.
 /// Only one side is computed if the other leads to the same state or its mirror image. A
-/// perturbation that leads back to the saddle is repeated four times as large, up to 1 mm. Errors:
-/// no_equilibrium, cancelled.
+/// perturbation that leads back to the saddle is repeated four times as large, up to twice the step
+/// of the descent. Errors: no_equilibrium, cancelled.
 Result<State> leave_saddle(Linearisation& system, const State& unstable,
                            const Eigen::Matrix3Xd& mode, const BranchSwitch& departure,
                            const Watch& watch);

@@ -96,8 +96,8 @@ bool comes_upon(const WayDown& other, const Eigen::Matrix3Xd& x, double near_mm,
 std::optional<State> equilibrium_near(Linearisation& system, const State& unstable,
                                       const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
                                       WayDown* passed, const WayDown* other, const Watch& watch) {
-  constexpr double most_mm = 1;
-  const double near_mm = 0.02 * departure.step_mm;
+  const double near_mm = 0.02 * departure.step_mm,
+               most_mm = std::max(2 * departure.step_mm, departure.amplitude_mm);
   for (double push = departure.amplitude_mm; push <= most_mm && !watch.cancelled(); push *= 4) {
     State state = pushed(system.model(), unstable, push * along);
     if (passed) *passed = {state.x.cast<float>()};

@@ -34,20 +34,27 @@ constexpr double plan_margin = 1.25;
 }  // namespace
 
 double expected_error(const LevelPlan& plan) {
-  // measured on circles, caps and hemispheres
-  constexpr double plain_of_four = 3e-3, extrapolated_of_sixteen = 7.5e-6;
+  // estimates, which are above the errors, on circles, caps and hemispheres
+  constexpr double plain_of_four = 6e-3, extrapolated_of_sixteen = 2.5e-5;
   const double edges = plan.edges_per_segment.back();
-  return plan.extrapolate ? extrapolated_of_sixteen * std::pow(16 / edges, 4)
-                          : plain_of_four * std::pow(4 / edges, 2);
+  return plan.extrapolate && plan.edges_per_segment.size() == most_meshes
+             ? extrapolated_of_sixteen * std::pow(16 / edges, 4)
+             : plain_of_four * std::pow(4 / edges, 2);
 }
 
-LevelPlan plan_levels(double tolerance, int base) {
-  LevelPlan plan{{base, 2 * base}, false, true};
-  if (tolerance >= plan_margin * expected_error(plan)) return plan;
-  plan = {{2 * base, 4 * base}, false, true};
-  if (tolerance >= plan_margin * expected_error(plan)) return plan;
+LevelPlan plan_levels(double tolerance, int base, double growth) {
+  const auto meets = [&](const LevelPlan& plan) {
+    return tolerance >= plan_margin * growth * expected_error(plan);
+  };
+  LevelPlan plan{{base, 2 * base}, true};
+  if (meets(plan)) return plan;
+  // two edges per segment are enough to measure what the others leave, but not on long rods, of
+  // which a path has states of little stiffness
+  plan = growth > 1 || base % 4 != 0 ? LevelPlan{{2 * base, 4 * base}, true}
+                                     : LevelPlan{{base / 2, base, 2 * base}, true};
+  if (meets(plan)) return plan;
   plan = {{base, 2 * base, 4 * base}, true};
-  while (expected_error(plan) > tolerance)
+  while (growth * expected_error(plan) > tolerance)
     for (int& edges : plan.edges_per_segment) edges *= 2;
   return plan;
 }
@@ -66,8 +73,7 @@ std::optional<LevelPlan> finer(const LevelPlan& plan) {
   if (2 * edges.back() > most_edges) return std::nullopt;
   edges.push_back(2 * edges.back());
   if (edges.size() > most_meshes) edges.erase(edges.begin());
-  next.extrapolate = edges.size() == most_meshes;
-  next.extrapolate_forces = true;
+  next.extrapolate = true;
   return next;
 }
 

@@ -43,6 +43,12 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
 
 constexpr double roughly = 0.02;  // relative accuracy of the lowest eigenvalue: its trend is used
 
+/// Whether moments act between the rods of a joint.
+bool passes_moments(const Model& model) {
+  return !model.hinges.empty() || !model.followers.empty() ||
+         !std::get<std::vector<Pair<JointSpin>>>(model.pairs).empty();
+}
+
 /// Length of rod lumped at each node, mm.
 Eigen::VectorXd unit_length(const RodMesh& mesh) {
   return lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0));
@@ -221,16 +227,17 @@ void NestedShell::estimate(const Energies& energies) {
 
   const RodMesh& companion = levels_[last - 1]->mesh;
   const Eigen::Matrix3Xd step = step_to(last - 1, state_.x);
-  const bool two = !extrapolates();
+  const bool no_order = order_unknown(energies);
   // the tolerance is added, as Newton's method stops there
-  if (order_unknown(energies)) {
-    state_.error_estimate_mm = margin * largest(companion, step) + options_.tolerance_mm;
-    return;
-  }
-  if (two) {
-    state_.error_estimate_mm = margin * largest(companion, step) / 3 + options_.tolerance_mm;
-    return;
-  }
+  state_.error_estimate_mm =
+      margin * largest(companion, step) / (no_order ? 1 : 3) + options_.tolerance_mm;
+  if (no_order || !extrapolates()) return;
+  // the correction is known at the companion's nodes; between them it is interpolated
+  Eigen::Matrix3Xd correction;
+  finest.from_coarser->meshes().nodes(step / 3, correction);
+  state_.x += correction;
+  // without a third mesh the error that remains is not known, only that of the finest mesh
+  if (state_.measured + 2 > int(last)) return;
   // the extrapolated positions (4 fine - coarse)/3 of the two finer meshes less those of the two
   // coarser ones, at the nodes of all three
   const Eigen::Index shared = levels_[last - 2]->mesh.rod_nodes();
@@ -242,10 +249,6 @@ void NestedShell::estimate(const Energies& energies) {
       std::max(margin_extrapolated * max_column_norm((4 * now - before) / 3) / 15,
                margin * left_by_order(now, before)) +
       options_.tolerance_mm;
-  // the correction is known at the companion's nodes; between them it is interpolated
-  Eigen::Matrix3Xd correction;
-  finest.from_coarser->meshes().nodes(step / 3, correction);
-  state_.x += correction;
 }
 
 bool order_unknown(const Energies& energies) { return energies[Term::contact] > 0; }
@@ -271,11 +274,15 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
 CertifiedVectors certify_forces(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                 const Model& model, const Energies& energies) {
   CertifiedVectors found = certify_vectors(levels, extrapolate, order_unknown(energies));
-  const bool moments = !model.hinges.empty() || !model.followers.empty() ||
-                       !std::get<std::vector<Pair<JointSpin>>>(model.pairs).empty();
-  if (moments && levels.size() == 2)
+  if (passes_moments(model) && levels.size() == 2)
     found.error = std::max(found.error, max_column_norm(levels[1] - levels[0]));
   return found;
+}
+
+double least_energy_error(const Model& model, const Energies& energies, int edges_per_segment) {
+  if (!passes_moments(model)) return 0;
+  return 0.04 * std::pow(4.0 / edges_per_segment, 3) *
+         (energies[Term::bend] + energies[Term::twist]);
 }
 
 /// Forces at the prescribed joints of a level, and their stiffness by its last factorisation, which
@@ -301,7 +308,7 @@ void NestedShell::take_reactions(const std::vector<ConstraintForces>& levels) {
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
   const Level& finest = *levels_.back();
-  const bool extrapolate = extrapolates_forces();
+  const bool extrapolate = extrapolates();
   const Energies& energies = finest.system->assembly().energies;
   const CertifiedVectors force = certify_forces(forces, extrapolate, finest.model, energies),
                          tangent = certify_vectors(stiffness, extrapolate, order_unknown(energies));

@@ -17,7 +17,7 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
   NestedShell shell(plan, options);
   shell.boundary_ = motion;
   // errors with contact show no order of convergence
-  if (rods.contact.barrier.acts()) shell.plan_.extrapolate = shell.plan_.extrapolate_forces = false;
+  if (rods.contact.barrier.acts()) shell.plan_.extrapolate = false;
   const auto numbers = std::make_shared<FactorNumbers>();
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();

@@ -229,7 +229,7 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
     strength.push_back(loading.strength_factor(level, found, used));
   }
   row.event = found.event;
-  const bool extrapolate = shell.plan().extrapolate_forces;
+  const bool extrapolate = shell.plan().extrapolate;
   const CertifiedVectors torn = certified(strength, extrapolate, true),
                          estimated = certified(linear, extrapolate, true);
   row.strength_factor = torn.value(0, 0), row.strength_error = torn.error;

@@ -143,10 +143,9 @@ Result<Vibrations> vibrations_of(FormedShell& formed, int count, const Watch& wa
   const bool no_order = order_unknown(shell.energies(last));
   std::vector<std::pair<record::ModeRow, Eigen::Matrix3Xd>> modes;
   for (std::size_t k = 0; k < lambdas.size(); ++k)
-    modes.emplace_back(
-        row_of(certify_vectors(lambdas[k], shell.plan().extrapolate_forces, no_order),
-               meshes.back().found.residuals[k]),
-        meshes.back().shapes[k]);
+    modes.emplace_back(row_of(certify_vectors(lambdas[k], shell.plan().extrapolate, no_order),
+                              meshes.back().found.residuals[k]),
+                       meshes.back().shapes[k]);
   // extrapolated frequencies may be in another order
   std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.first.frequency_Hz; });
   modes.resize(std::min(modes.size(), std::size_t(count)));

@@ -100,8 +100,8 @@ double StateMeasures::eigenvalue(const Watch& watch) {
     return lowest_eigenvalue(shell.system(level), shell.state().levels[std::size_t(level)], length,
                              watch);
   };
-  const int last = shell.levels() - 1;
-  return (4 * on(last) - on(last - 1)) / 3;
+  const int last = shell.last();
+  return shell.extrapolates() ? (4 * on(last) - on(last - 1)) / 3 : on(last);
 }
 
 /// Follows the branch of a state back towards the flat, on the mesh of judged_edges, until it ends.

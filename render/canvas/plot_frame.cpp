@@ -124,13 +124,35 @@ bool passes(const Series& s, const PlotFrame& frame, const Box& box) {
     if (k < s.y_error.size() && segment({p.x, frame.y.coordinate(s.y[k] - s.y_error[k])},
                                         {p.x, frame.y.coordinate(s.y[k] + s.y_error[k])}))
       return true;
+    if (k < s.x_span.size() && segment({frame.x.coordinate(s.x_span[k][0]), p.y},
+                                       {frame.x.coordinate(s.x_span[k][1]), p.y}))
+      return true;
   }
+  return false;
+}
+
+// whether a band between two curves passes through `box`; a band with an open end is a region of
+// the plot, not data
+bool passes(const Band& band, const PlotFrame& frame, const Box& box) {
+  constexpr int samples = 24;
+  for (std::size_t k = 0; k + 1 < band.x.size(); ++k)
+    for (int m = 0; m <= samples; ++m) {
+      const double part = double(m) / samples,
+                   x = frame.x.coordinate(std::lerp(band.x[k], band.x[k + 1], part)),
+                   low = frame.y.coordinate(std::lerp(band.low[k], band.low[k + 1], part)),
+                   high = frame.y.coordinate(std::lerp(band.high[k], band.high[k + 1], part));
+      if (std::isfinite(low + high) && x >= box.x && x <= box.right() &&
+          std::min(low, high) <= box.bottom() && std::max(low, high) >= box.y)
+        return true;
+    }
   return false;
 }
 
 bool hides(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const Box& box) {
   for (const Series& s : plot.series)
     if (passes(s, frame, box)) return true;
+  for (const Band& band : plot.bands)
+    if (passes(band, frame, box)) return true;
   for (const Note& note : plot.notes)
     if (box.overlaps(note_box(canvas, plot, frame, note))) return true;
   for (const ReferenceLine& line : plot.references) {

@@ -223,7 +223,8 @@ TEST_CASE("a recording's error names its line") {
   REQUIRE_FALSE(events);
   CHECK(events.error().message.find("visit.txt:4:") == 0);
   CHECK(read_events("# nothing\n", "visit.txt")->empty());
-  const auto beside = value_of(read_events("size 640 480 1   # pixels\ntype a # b\n", "visit.txt"));
+  const auto beside =
+      value_of(read_events("size 640 480 1   # pixels\n  type a # b\n", "visit.txt"));
   REQUIRE(beside.size() == 2);
   CHECK(beside[1].text == "a # b");
 }

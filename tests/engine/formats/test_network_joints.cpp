@@ -115,7 +115,10 @@ TEST_CASE("a network's law is that of all joints which have none of their own") 
   CHECK(read(lawful(R"("hinge")")).joint_laws == Points{{every_joint, 0, -1}});
   CHECK(read(lawful(R"({"law": "spring", "twist_Nmm": 2})")).joint_laws ==
         Points{{every_joint, 0, 2}});
-  CHECK(network_error(read(lawful(R"("rigid")"))).empty());
+  NetworkData network = read(lawful(R"("rigid")"));
+  CHECK(network_error(network).empty());
+  network.joint_laws.front().push_back(5);
+  CHECK_THAT(network_error(network), Catch::Contains("eccentricity_mm in the row of all others"));
   CHECK_THAT(refusal(read_network(lawful(R"({"law": "rigid", "point": 1})"), "n.json")),
              Catch::Contains("law: got the law of all joints"));
   CHECK_THAT(refusal(read_network(lawful("3"), "n.json")), Catch::Contains("expected \"law\" of"));

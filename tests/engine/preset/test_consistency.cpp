@@ -221,6 +221,15 @@ TEST_CASE("utilisation needs a strength, which is said once") {
   CHECK_THAT(errors_of("[rod]\nstrength_MPa = 500.0\n[rod_v]\ndiffers = true\n[limits]\n"
                        "max_utilisation = 0.8\n"),
              Catch::Contains("and of [rod_v] where it differs"));
+  CHECK_THAT(errors_of("[rod]\nstrength_MPa = 500.0\n[rod_v]\ndiffers = true\n[movie]\n"
+                       "colour_by = \"utilisation\"\n"),
+             Catch::Contains("and of [rod_v] where it differs"));
+}
+
+TEST_CASE("further views are as steep as the first one may be") {
+  CHECK_THAT(errors_of("[movie]\nviews = [[0, 90], [30, -90.5]]\n"),
+             Catch::Contains("[movie] views") && Catch::Contains("between -90 and 90"));
+  CHECK(errors_of("[movie]\nviews = [[0, 90], [30, -90]]\n") == "none");
 }
 
 TEST_CASE("a figure with more pixels than a picture can have is refused") {

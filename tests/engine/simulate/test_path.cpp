@@ -172,6 +172,21 @@ TEST_CASE("frames change nothing: the same events, the same end, of an actuation
   same(loaded, more);
 }
 
+TEST_CASE("a shell of metres enters its branch as one of decimetres does") {
+  const auto scaled = [](double by) {
+    preset::Preset p = circle(12, by * 126, by * 121);
+    p.footprint.spacing_mm *= by;
+    p.rod.diameter_mm *= by;
+    p.imperfection.size = 0.002;
+    auto found = run(p).summary;
+    INFO(found.limit_reason);
+    CHECK(found.limit == record::Limit::none);
+    CHECK_THAT(found.limit_reason, Catch::StartsWith("the path branches"));
+    return found.height_mm / by;
+  };
+  CHECK(scaled(50) == Approx(scaled(1)).epsilon(1e-3));
+}
+
 TEST_CASE(
     "an imperfection chooses the branch of Fig. 1: stable in every frame, and the same from "
     "any seed but for mirrors") {

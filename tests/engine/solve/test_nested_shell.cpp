@@ -74,7 +74,7 @@ TEST_CASE("a companion without a state near the fine one leaves the error unknow
   REQUIRE(shell.start(first, first_state(shell, scene, first), watch).end == Outcome::reached);
   CHECK(shell.state().measured == 1);
   CHECK(std::isnan(shell.state().error_estimate_mm));
-  CHECK_FALSE(shell.extrapolates_forces());
+  CHECK_FALSE(shell.extrapolates());
   // the fine state, restricted, replaces it: the path can continue from there
   CHECK(shell.state().levels[0].x.leftCols(shell.mesh(0).joints) ==
         shell.state().levels[1].x.leftCols(shell.mesh(0).joints));

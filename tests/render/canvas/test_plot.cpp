@@ -143,6 +143,15 @@ TEST_CASE("a legend hides no data: it goes to a free corner, else above") {
     crossed.series.push_back(plot.series[0]);
     for (double& y : crossed.series[1].y) y = 10 - y;
     CHECK(Legend(canvas, crossed).free_corner(canvas, frame) == LegendPosition::none);
+    // a band of errors and horizontal error bars are data
+    Plot above = plot;
+    above.bands = {{"band", {0, 10}, {8, 8}, {10, 10}}};
+    CHECK(Legend(canvas, above).free_corner(canvas, frame) == LegendPosition::lower_left);
+    Plot wide = plot;
+    wide.series.push_back({"errors"});
+    wide.series[1].add(1, 9.5);
+    wide.series[1].x_span = {{0, 10}};
+    CHECK(Legend(canvas, wide).free_corner(canvas, frame) == LegendPosition::lower_left);
   });
 }
 
