@@ -71,6 +71,8 @@ void PathSegment::free_states() {
     step.point = {};
     step.point.t = t;
   }
+  path_end.reset();
+  after.reset();
 }
 
 bool EquilibriumPath::too_coarse() const {

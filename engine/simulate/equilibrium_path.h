@@ -25,6 +25,10 @@ struct PathSegment : PathRecord {
          to = 0;      ///< path parameters of its start and of its requested end, dimensionless
   Report report;      ///< how it ended, its events and cost; written by Simulation::go
   bool back = false;  ///< whether it leads from the first state back towards the flat state
+  /// For a step, whose motion later steps replace: the simulation at the end of its path, if the
+  /// step changes it further, and after the step.
+  std::optional<Checkpoint> path_end = {}, after = {};
+  std::string reported = {};  ///< for a step: sentence on it in addition to its certificate
   /// 1 where the path parameter grows along the segment, -1 where it falls.
   double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
@@ -49,6 +53,16 @@ using At = std::function<std::string(double t, std::optional<double> error)>;
 /// "at path parameter 0.1234", whatever the experiment.
 std::string at_parameter(double t, std::optional<double> error);
 
+/// A push of a joint by `displacement`, along the normal of the net, or of the unloaded shell if
+/// there is no net.
+struct Push {
+  int joint = 0;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
+  Eigen::Matrix3Xd before = {};  ///< joints of the unloaded shell, mm, 3 x n
+
+  double depth_mm() const { return displacement.norm(); }
+};
+
 /// A simulation with the segments of the path that were followed in it. The functions
 /// `run_actuation`, `run_indentation` and `run_steps` fill it.
 struct EquilibriumPath {
@@ -56,10 +70,10 @@ struct EquilibriumPath {
   Simulation simulation;
   /// The segments in the order in which they were followed.
   std::vector<PathSegment> segments = {};
-  std::vector<PathSegment> earlier = {};  ///< for a push: segments of the actuation before it
+  std::vector<PathSegment> earlier = {};  ///< segments of the actuation before a push or steps
+  std::optional<Push> push = {};          ///< the push of [indentation] that `segments` follow
   At at = at_parameter;                   ///< how texts name a position on `segments`
   LevelPlan meshes = {};                  ///< mesh levels on which the path was followed
-  bool single_motion = true;  ///< whether all segments belong to the current motion of `simulation`
   /// Time to build the meshes and the first state, s.
   double seconds_setup = 0;
   /// A sentence on what a second mesh does not confirm, or on a missed tolerance; empty: neither.
@@ -68,9 +82,13 @@ struct EquilibriumPath {
   /// Which limit ended the path, and the sentence that reports it; written by set_limit().
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};
+  /// Why the step after the last segment could not begin; empty: it did, or there is none.
+  std::string refused = {};
   /// Contacts along the path, written by contact_events().
   std::vector<ContactEvent> contacts = {};
 
+  /// Whether all segments belong to the current motion of `simulation`: they are no steps.
+  bool single_motion() const { return segments.empty() || !segments.front().after; }
   /// Whether the path ended because its mesh is too coarse (LevelPlan::allowed_mm). Later segments
   /// are then not followed.
   bool too_coarse() const;

@@ -66,7 +66,7 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
 
 /// Why the push stopped or which events it passed, in the terms of a push: the first snap, or the
 /// segment that ended; empty if the common text applies.
-std::string reason_of(PushedShell& pushed, const Watch& watch) {
+std::string reason_of(EquilibriumPath& pushed, const Watch& watch) {
   const At& at = pushed.at;
   const Scene& scene = pushed.simulation.scene();
   if (pushed.limit == record::Limit::snap)
@@ -78,18 +78,18 @@ std::string reason_of(PushedShell& pushed, const Watch& watch) {
               "equilibrium",
               event.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
               at(event.t, event.error),
-              turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));
+              turning_back(pushed.simulation, segment, event, pushed.push->depth_mm(), watch));
   const PathSegment& segment = pushed.segments.back();
   const double strain = segment.report.certificate.largest_strain;
   if (pushed.limit == record::Limit::locking && strain != 0)
     return fmt::format("{} ({:.4f} of the length scale) and {:.4g} N {}", at(segment.report.t, {}),
-                       segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
-                       pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
+                       segment.report.t * pushed.push->depth_mm() / scene.length_scale_mm,
+                       pushed.push->displacement.normalized().dot(pushed.simulation.force(0)),
                        text_of_locking(strain, scene.max_strain));
   return {};
 }
 
-void set_push_limit(PushedShell& pushed, const Watch& watch) {
+void set_push_limit(EquilibriumPath& pushed, const Watch& watch) {
   const auto disagreement = std::exchange(pushed.mesh_disagreement, {});
   set_limit(pushed);
   if (auto reason = reason_of(pushed, watch); !reason.empty())
@@ -107,9 +107,9 @@ void set_push_limit(PushedShell& pushed, const Watch& watch) {
   pushed.mesh_disagreement = disagreement;
 }
 
-Result<PushedShell> follow_push(const std::shared_ptr<const Scene>& scene,
-                                const preset::Indentation& requested, const LevelPlan& plan,
-                                const Watch& watch, const RunContext& context) {
+Result<EquilibriumPath> follow_push(const std::shared_ptr<const Scene>& scene,
+                                    const preset::Indentation& requested, const LevelPlan& plan,
+                                    const Watch& watch, const RunContext& context) {
   auto pushed = prepare_push(scene, requested, plan, watch, context);
   if (pushed && pushed->too_coarse()) return pushed;
   for (double to : requested.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
@@ -127,21 +127,22 @@ double progress_at_depth(bool unload, std::size_t segment, double t) {
   return segment == 0 ? t / 2 : 1 - t / 2;
 }
 
-Caption caption_of(const PushedShell& pushed, bool unload) {
+Caption caption_of(const EquilibriumPath& pushed, bool unload) {
   const Simulation& simulation = pushed.simulation;
   return {[unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
           [&](record::Frame& frame, double t, double) {
             frame.actuation = 1;
             frame.boundary_radius_mm = simulation.scene().radius_end_mm;
-            frame.depth_mm = t * pushed.depth_mm();
+            frame.depth_mm = t * pushed.push->depth_mm();
           },
           [&](record::Frame& frame, double t, bool between) {
             const Eigen::Vector3d force =
-                between ? frame.reactions_N.col(pushed.push.joint) : simulation.force(0);
-            frame.force_N = pushed.push.displacement.normalized().dot(force);
+                between ? frame.reactions_N.col(pushed.push->joint) : simulation.force(0);
+            frame.force_N = pushed.push->displacement.normalized().dot(force);
             if (!between) simulation.put_push_errors(frame);
-            const PushReach reach = push_reach(
-                pushed.before, frame.nodes.leftCols(pushed.before.cols()), t * pushed.depth_mm());
+            const PushReach reach =
+                push_reach(pushed.push->before, frame.nodes.leftCols(pushed.push->before.cols()),
+                           t * pushed.push->depth_mm());
             frame.reach_above_tenth = reach.above_tenth;
             frame.reach_above_half = reach.above_half;
             frame.lowest_latitude_deg = reach.lowest_latitude_deg;
@@ -176,8 +177,6 @@ void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSa
 
 }  // namespace
 
-double PushedShell::depth_mm() const { return push.displacement.norm(); }
-
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
   if (std::ranges::find(footprint.fixed_joints, joint) == footprint.fixed_joints.end() ||
       footprint.is_sprung(joint))
@@ -201,17 +200,18 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
                     joints.colwise().normalized().transpose() * direction_of(indentation));
 }
 
-Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
-                       const NestedShell& shell) {
+Result<Push> push_of(const preset::Indentation& requested, const Scene& scene,
+                     const NestedShell& shell) {
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
-  Eigen::Matrix3Xd positions = shell.state().x.leftCols(joints);
+  Push push{.before = shell.state().x.leftCols(joints)};
+  Eigen::Matrix3Xd positions = push.before;
   if (scene.net) {
     TRY(net, points_on(*scene.net, shell.finest().flat.leftCols(joints)));
     positions = std::move(*net);
   }
   TRY(joint, pushed_joint(requested, scene.footprint, positions));
   TRY_DO(not_on_boundary(scene.footprint, *joint));
-  PushOf push{*joint};
+  push.joint = *joint;
   if (scene.net) {
     const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
     TRY(point, scene.net->at(at.u, at.v));
@@ -229,25 +229,22 @@ Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
   return push;
 }
 
-Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
-                                 const preset::Indentation& requested, const LevelPlan& plan,
-                                 const Watch& watch, const RunContext& context) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch, context));
-  if (actuated->too_coarse()) return PushedShell{std::move(*actuated), {}, {}};
-  Simulation& simulation = actuated->simulation;
-  TRY(push, push_of(requested, *scene, simulation.shell()));
-  const auto joints = Eigen::Index(scene->footprint.joints.size());
-  Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
-  PushedShell pushed{std::move(*actuated), *push, std::move(before)};
-  pushed.at = at_depth(pushed.depth_mm());
+Result<EquilibriumPath> prepare_push(const std::shared_ptr<const Scene>& scene,
+                                     const preset::Indentation& requested, const LevelPlan& plan,
+                                     const Watch& watch, const RunContext& context) {
+  auto pushed = follow_whole_actuation(scene, plan, "to push", watch, context);
+  if (!pushed || pushed->too_coarse()) return pushed;
+  TRY(push, push_of(requested, *scene, pushed->simulation.shell()));
+  pushed->at = at_depth(push->depth_mm());
   Constraint constraint{push->joint};
   if (requested.lateral == preset::Lateral::free)
     constraint.directions = push->displacement.normalized();
   const Report taken =
-      pushed.simulation.begin_joint_push({constraint}, {push->displacement}, watch);
+      pushed->simulation.begin_joint_push({constraint}, {push->displacement}, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 "the unloaded shell has no equilibrium with the pushed joint fixed");
+  pushed->push = std::move(*push);
   return pushed;
 }
 
@@ -262,11 +259,11 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
         return follow_push(scene, indentation, plan, w, context);
       },
       watch);
-  if (!kept) return tl::unexpected<Error>(kept.error());
+  if (!kept) return kept;
   set_push_limit(*kept, watch);
   kept->contacts = contact_events(*kept);
   TRY(layout, layout_of(kept->simulation));
-  layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
+  layout->loaded_joints = {{kept->push->joint, kept->push->displacement.normalized()}};
   TRY_DO(sink.begin(std::move(*layout)));
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)
@@ -274,7 +271,7 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   if (own_steps) add_load_steps(*kept, indentation.unload, samples);
   PathSampler sampler(*kept, caption_of(*kept, indentation.unload), sink, watch, samples.size());
   TRY_DO(sampler.all(samples));
-  return EquilibriumPath(std::move(*kept));
+  return kept;
 }
 
 }  // namespace gridshell::simulate

@@ -157,7 +157,7 @@ void put_seams(const Scene& scene, record::Summary& s) {
 std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
-  if (!path.single_motion || !simulation.constraints().empty()) return "";
+  if (!path.single_motion() || !simulation.constraints().empty()) return "";
   constexpr double indistinguishable = 0.02;  // in units of d
   double least = scene.tolerance * scene.length_scale_mm / 4;
   if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
@@ -177,7 +177,7 @@ std::string late_on_branch(const EquilibriumPath& path) {
   constexpr double late = 0.05;  // in the path parameter
   for (const PathSegment& segment : path.segments)
     for (const Event& event : segment.report.events)
-      if (path.single_motion && !event.jump && event.to && std::abs(*event.to - event.t) > late)
+      if (path.single_motion() && !event.jump && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
             "a branch bifurcates from the path at progress {:.4f}, and its first state was "
             "found at progress {:.4f}: if several branches bifurcate there, which one it is may "

@@ -18,19 +18,6 @@ namespace {
 
 using preset::StepKind;
 
-/// A finished step; its segment of the path has the same index.
-struct Done {
-  Checkpoint path_end, end;   ///< at the end of its path; the state of the shell after the step
-  std::string reported = {};  ///< sentence about it in addition to its certificate
-};
-
-/// All steps on the meshes of one plan.
-struct Work : EquilibriumPath {
-  Checkpoint begin;
-  std::vector<Done> done = {};
-  std::string refused = {};  ///< why the step after the last segment could not begin; empty: none
-};
-
 /// Whether frames are sampled along the path of a step, which a segment then stores: for a push,
 /// for a joint actuation, and for a move of the whole boundary if no edge point is displaced
 /// individually before or after it.
@@ -88,48 +75,46 @@ Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
   return begun;
 }
 
-Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
-                      const std::vector<preset::Step>& steps, const LevelPlan& plan,
-                      const Watch& watch, const RunContext& context) {
+/// Applies the steps on the meshes of one plan, a segment each. The last segment of `earlier` has
+/// the shell before them.
+Result<EquilibriumPath> follow_steps(const std::shared_ptr<const Scene>& scene,
+                                     const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                                     const Watch& watch, const RunContext& context) {
   std::string reported;
-  TRY(actuated, begin(scene, steps, plan, watch, context, reported));
-  Checkpoint begin = actuated->simulation.save();
-  Work work{std::move(*actuated), std::move(begin)};
-  if (work.too_coarse()) return work;
-  work.single_motion = false;
-  work.at = at_fraction;
-  Simulation& simulation = work.simulation;
+  auto path = begin(scene, steps, plan, watch, context, reported);
+  if (!path || path->too_coarse()) return path;
+  path->at = at_fraction;
+  Simulation& simulation = path->simulation;
+  path->earlier.back().after = simulation.save();
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const StepKind kind = steps[k].kind;
     const double to = kind == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
-    PathSegment& segment = work.segments.emplace_back(PathSegment{{}, 0, to, {}});
-    StepPath path;
-    auto report = apply_step(simulation, steps[k], watch, &path);
+    PathSegment& segment = path->segments.emplace_back(PathSegment{{}, 0, to, {}});
+    auto report = apply_step(simulation, steps[k], watch, &segment);
     if (watch.cancelled()) return stopped();
     if (!report) {
       std::string why = fmt::format("[[step]] {}: {}", k + 1, report.error().message);
       if (k == 0) return fail(report.error().fault, std::move(why));
       // the steps before it are kept
-      work.segments.pop_back();
-      work.refused = std::move(why);
+      path->segments.pop_back();
+      path->refused = std::move(why);
       break;
     }
     segment.report = std::move(*report);
-    static_cast<PathRecord&>(segment) = std::move(path);
     close(segment, simulation);
-    work.done.push_back({std::move(path.end), simulation.save()});
+    segment.after = simulation.save();
     if (kind == StepKind::open)
-      work.done.back().reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
+      segment.reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
     if (segment.report.end != Outcome::reached) break;
   }
-  return work;
+  return path;
 }
 
 /// Passes the frames of all steps to a sink.
 class Show {
  public:
-  Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
-       Watch& watch)
+  Show(EquilibriumPath& work, const std::vector<preset::Step>& steps, int frames,
+       record::Sink& sink, Watch& watch)
       : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
     for (const int frames_of_step : shares_) count_ += frames_of_step;
     sampler_.emplace(work, caption(), sink, watch, std::size_t(count_) + 1);
@@ -137,39 +122,38 @@ class Show {
 
   Result<void> all() {
     Simulation& simulation = work_.simulation;
-    simulation.restore(work_.begin);
+    simulation.restore(*work_.earlier.back().after);
     boundary_ = {1, 1};
     // the first frame belongs to no step
     if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
-    for (step_ = 0; step_ < work_.done.size(); ++step_)
+    for (step_ = 0; step_ < work_.segments.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
-    simulation.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
+    simulation.restore(*work_.segments.back().after);
     return {};
   }
 
  private:
   /// Takes the frames along the path of a step, and the one at its end.
   Result<void> one() {
-    const Done& done = work_.done[step_];
     const PathSegment& segment = work_.segments[step_];
     const int count = shares_[step_];
-    boundary_ = {boundary_[1], done.end.boundary.progress};
+    boundary_ = {boundary_[1], segment.after->boundary.progress};
     for (int k = 1; k < count; ++k) {
       const double part = double(k) / count;
       const bool moves = steps_[step_].kind == StepKind::move;
       const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
                              : segment.from + part * (segment.end() - segment.from);
-      if (auto taken = between(done, sample(t)); !taken) return taken;
+      if (auto taken = between(segment, sample(t)); !taken) return taken;
     }
-    work_.simulation.restore(done.end);
+    work_.simulation.restore(*segment.after);
     const PathSample last = sample(segment.end());
     return sampler_->take_current(last, event(last), last.t);
   }
 
   /// Takes the frame at a sample of the path of a step, if there is a state.
-  Result<void> between(const Done& done, const PathSample& sample) {
+  Result<void> between(const PathSegment& segment, const PathSample& sample) {
     Simulation& simulation = work_.simulation;
-    simulation.restore(done.path_end);
+    simulation.restore(segment.path_end ? *segment.path_end : *segment.after);
     const CertifiedSample certified = certify_sample(work_, sample, watch_);
     if (watch_.cancelled()) return stopped();
     if (certified.report.end != Outcome::reached) return {};
@@ -202,7 +186,7 @@ class Show {
     frame.boundary_radius_mm = work_.simulation.scene().radius_at(frame.actuation);
   }
 
-  Work& work_;
+  EquilibriumPath& work_;
   const std::vector<preset::Step>& steps_;
   Watch& watch_;
   std::vector<int> shares_;
@@ -227,11 +211,11 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
               : fmt::format("unstable: {} negative pivots", certificate.negative_pivots);
   if (std::isfinite(certificate.error_estimate_mm))
     text += fmt::format(", error {:.2g} mm", certificate.error_estimate_mm);
-  return text;
+  return text + segment.reported;
 }
 
 /// Sets the limit of the path and names its step in front of the reason.
-void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
+void name_step_of_limit(EquilibriumPath& work, const std::vector<preset::Step>& steps) {
   set_limit(work);
   if (!work.refused.empty()) {
     work.limit = record::Limit::no_equilibrium;
@@ -250,10 +234,11 @@ void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
   work.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
 }
 
-void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {
-  for (std::size_t k = 0; k < work.done.size(); ++k) {
+void put_loads(const EquilibriumPath& work, const std::vector<preset::Step>& steps,
+               record::Layout& layout) {
+  for (std::size_t k = 0; k < work.segments.size(); ++k) {
     if (steps[k].kind != StepKind::push) continue;
-    const Checkpoint& end = work.done[k].end;
+    const Checkpoint& end = *work.segments[k].after;
     const auto joint_pushed = joint_of(steps[k], work.simulation.scene().footprint);
     // a push that failed leaves no constraint
     const auto origin =
@@ -339,7 +324,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
   auto work = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
-        return do_steps(scene, steps, plan, w, context);
+        return follow_steps(scene, steps, plan, w, context);
       },
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
@@ -352,10 +337,9 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
   put_loads(*work, steps, *layout);
   TRY_DO(sink.begin(std::move(*layout)));
   TRY_DO(Show(*work, steps, frames, sink, watch).all());
-  StepsResult stepped{EquilibriumPath(std::move(*work))};
+  StepsResult stepped{std::move(*work)};
   for (std::size_t k = 0; k < stepped.path.segments.size(); ++k)
-    stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]) +
-                               (k < work->done.size() ? work->done[k].reported : ""));
+    stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]));
   return stepped;
 }
 

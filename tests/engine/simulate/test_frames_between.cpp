@@ -83,12 +83,12 @@ TEST_CASE("frames that are interpolated between load steps are within their erro
 TEST_CASE("frames of a push, with its force, are interpolated between load steps", "[standard]") {
   const preset::Preset p = shipped("s4_pole_outward");
   const auto pushed = [&](bool closely) {
-    PushedShell shell = value_of(prepare_push(unloaded_scene(p, closely), p.indentation,
-                                              initial_levels(*shared_scene(p)), unwatched));
+    EquilibriumPath shell = value_of(prepare_push(unloaded_scene(p, closely), p.indentation,
+                                                  initial_levels(*shared_scene(p)), unwatched));
     follow_segment(shell, 1, {}, unwatched);
     return shell;
   };
-  PushedShell path = pushed(false), closely = pushed(true);
+  EquilibriumPath path = pushed(false), closely = pushed(true);
   CHECK(interpolated_frames(path, closely, 40) > 25);
 }
 
