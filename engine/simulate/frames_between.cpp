@@ -9,6 +9,7 @@
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frame_joints.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/indentation.h"
 #include "engine/solve/equilibrium_path.h"
 
 namespace gridshell::simulate {
@@ -27,11 +28,8 @@ bool smooth(const PathSegment& segment, std::size_t k) {
 
 }  // namespace
 
-FramesBetween::FramesBetween(EquilibriumPath& path,
-                             std::function<void(record::Frame&, double, bool)> measure,
-                             const Watch& watch)
+FramesBetween::FramesBetween(EquilibriumPath& path, const Watch& watch)
     : path_(path),
-      measure_(std::move(measure)),
       watch_(watch),
       contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())) {
   const Simulation& simulation = path.simulation;
@@ -54,7 +52,7 @@ const FramesBetween::Knot* FramesBetween::knot_at(std::size_t step, int quarter,
     const Report report = simulation.sample(t, nearest, false, watch_, across);
     if (report.end == Outcome::reached && report.certificate.stable()) {
       Knot knot{shell.point(), frame_of(simulation)};
-      measure_(knot.frame, t, false);
+      put_push(path_, knot.frame, t, false);
       const Eigen::Matrix3Xd own = nodes_of(shell.finest(), shell.model(), knot.point.state.x);
       knot.frame.nodes -= own.leftCols(knot.frame.nodes.cols());
       knot.frame.cell_K -= curvature(own);
@@ -142,7 +140,7 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   });
   auto frame = between(sample.t, knots_in(segment, *window));
   if (!frame) frame = between(sample.t, knots_between(segment, *window));
-  if (frame) measure_(*frame, sample.t, true);
+  if (frame) put_push(path_, *frame, sample.t, true);
   return frame;
 }
 

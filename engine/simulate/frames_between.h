@@ -2,9 +2,7 @@
 // measured there.
 #pragma once
 
-#include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,9 +24,7 @@ namespace gridshell::simulate {
 /// around it.
 class FramesBetween {
  public:
-  /// `measure`: as in Caption.
-  FramesBetween(EquilibriumPath& path, std::function<void(record::Frame&, double, bool)> measure,
-                const Watch& watch);
+  FramesBetween(EquilibriumPath& path, const Watch& watch);
 
   /// The frame of a sample, without its position on the path and event. Empty if it must be solved:
   /// it is a load step, is on no smooth branch, or the interpolation error exceeds a tenth of the
@@ -62,7 +58,6 @@ class FramesBetween {
   std::optional<record::Frame> between(double t, const Knots& knots) const;
 
   EquilibriumPath& path_;
-  std::function<void(record::Frame&, double, bool)> measure_;
   const Watch& watch_;
   record::ContactSearch contacts_;
   bool requested_;

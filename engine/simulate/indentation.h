@@ -31,6 +31,12 @@ Result<EquilibriumPath> prepare_push(const std::shared_ptr<const Scene>& scene,
                                      const preset::Indentation& indentation, const LevelPlan& plan,
                                      const Watch& watch, const RunContext& context = {});
 
+/// Writes the push of a path into a frame: force, its error, and reach. With [indentation] the
+/// force is the component of the joint's reaction along the push, and t the fraction of the depth;
+/// steps are measured by Simulation::put_push(). The frame is that of the current state, or
+/// `interpolated` between load steps.
+void put_push(const EquilibriumPath& path, record::Frame& frame, double t, bool interpolated);
+
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (fraction of the depth;
 /// with `unload` of loading and unloading); the first is the unloaded shell. The solver chooses its
 /// load steps; with `own_steps` they have frames too. Every frame is certified: the residual

@@ -41,20 +41,14 @@ Result<Report> apply_step(Simulation& simulation, const preset::Step& step, cons
 /// actuations and moves of the whole boundary.
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames);
 
-/// How the steps ended.
-struct StepsResult {
-  EquilibriumPath path;
-  std::vector<std::string> messages = {};  ///< one sentence for each step that was started
-};
-
 /// Applies the steps in order until one ends early, which is then the path's limit, and passes
 /// certified frames to the sink: the shell before the steps, and as many frames of each step as
 /// frames_of_steps() gives. Frames only sample the paths of the steps. Meshes are chosen and events
 /// confirmed as for a path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no
 /// initial shell), cancelled, those of the sink.
-Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
-                              const std::vector<preset::Step>& steps, int frames,
-                              record::Sink& sink, Watch& watch, const RunContext& context = {});
+Result<EquilibriumPath> run_steps(const std::shared_ptr<const Scene>& scene,
+                                  const std::vector<preset::Step>& steps, int frames,
+                                  record::Sink& sink, Watch& watch, const RunContext& context = {});
 
 // Stiffening and loading of a formed shell: bolts, braces, load cases.
 
