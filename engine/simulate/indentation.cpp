@@ -145,11 +145,9 @@ Result<EquilibriumPath> prepare_push(const std::shared_ptr<const Scene>& scene,
   if (!pushed || pushed->too_coarse()) return pushed;
   TRY(push, push_of(requested, *scene, pushed->simulation.shell()));
   pushed->at = at_depth(push->depth_mm());
-  Constraint constraint{push->joint};
-  if (requested.lateral == preset::Lateral::free)
-    constraint.directions = push->displacement.normalized();
+  const Across across = requested.lateral == preset::Lateral::free ? Across::free : Across::fixed;
   const Report taken =
-      pushed->simulation.begin_joint_push({constraint}, {push->displacement}, watch);
+      pushed->simulation.begin_push(push->joint, push->displacement, across, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 "the unloaded shell has no equilibrium with the pushed joint fixed");
