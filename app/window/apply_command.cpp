@@ -81,7 +81,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   // a drag past the limit of strain or stiffness would leave a shell that no further step can move
   std::optional<Checkpoint> before;
   if (passing_ && step.kind == preset::StepKind::push) before = session_->save();
-  simulate::StepPath path;
+  simulate::PathSegment path;
   TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &path : nullptr));
   if (before && report->end == Outcome::locked) {
     const auto joint = simulate::joint_of(step, now_.scene->footprint);

@@ -106,8 +106,8 @@ class EditSession {
     bool same_as(const FoundState& other) const;
   };
   void note_state();
-  std::string note_path(const preset::Step& step, const simulate::StepPath& path, double began_mm,
-                        bool began_stable, Report& report);
+  std::string note_path(const preset::Step& step, const simulate::PathSegment& path,
+                        double began_mm, bool began_stable, Report& report);
   bool looks_between() const;
   double pushed_mm(const preset::Step& step) const;
   std::string position_text(const PathMark& mark) const;

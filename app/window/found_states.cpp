@@ -128,7 +128,7 @@ std::string EditSession::position_text(const PathMark& mark) const {
 
 /// Adds the marks of a path, and a message if stability was lost and regained on it. Returns the
 /// position of its first event, as text; empty if it has none.
-std::string EditSession::note_path(const preset::Step& step, const simulate::StepPath& path,
+std::string EditSession::note_path(const preset::Step& step, const simulate::PathSegment& path,
                                    double began_mm, bool began_stable, Report& report) {
   // a path that starts in an unstable state does not lose its stability
   if (!began_stable)

@@ -153,13 +153,31 @@ bool rests_flat(const Scene& scene) {
          });
 }
 
-Caption caption_of(const Scene& scene) {
-  return {[](std::size_t, double t) { return progress_at(t); },
-          [&scene](record::Frame& frame, double, double progress) {
-            frame.actuation = progress;
-            frame.boundary_radius_mm = scene.radius_at(progress);
-          },
-          [](record::Frame&, double, bool) {}};
+/// The samples at `progress`; states that the path does not have are left out.
+std::vector<PathSample> samples_at(const EquilibriumPath& path,
+                                   const std::vector<double>& progress) {
+  std::vector<PathSample> samples;
+  for (std::size_t k = 0; k < progress.size(); ++k) {
+    PathSample sample{int(k), PathSample::before_path, parameter_at(progress[k]), progress[k]};
+    sample.actuation = progress[k];
+    if (progress[k] > 0 || !rests_flat(path.simulation.scene())) {
+      const auto segment = segment_at(path, sample.t);
+      // for a sample that the path did not reach, the end of its last segment is shown
+      const bool past = !path.segments.empty() && sample.t > path.segments.back().end();
+      if (!segment && !past) continue;
+      sample.segment = segment.value_or(path.segments.size() - 1);
+    }
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+/// follow_actuation() as the mesh policy calls it.
+Follow following(const std::shared_ptr<const Scene>& scene, bool inner, double to,
+                 const RunContext& context) {
+  return [=](const LevelPlan& plan, const Watch& watch) {
+    return follow_actuation(scene, plan, inner, to, watch, context);
+  };
 }
 
 }  // namespace
@@ -203,7 +221,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     follow_from_flat(path, *start, parameter_at(to), watch);
   }
   if (watch.cancelled()) return stopped();
-  set_limit(path);
+  set_limit(path, watch);
   return path;
 }
 
@@ -227,13 +245,8 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
 Result<EquilibriumPath> converged_actuation(const std::shared_ptr<const Scene>& scene, bool inner,
                                             double to, const Watch& watch,
                                             const RunContext& context) {
-  auto path = converged_path(
-      *scene,
-      [&](const LevelPlan& plan, const Watch& w) {
-        return follow_actuation(scene, plan, inner, to, w, context);
-      },
-      watch);
-  if (path) set_limit(*path);
+  auto path = converged_path(*scene, following(scene, inner, to, context), watch);
+  if (path) set_limit(*path, watch);
   return path;
 }
 
@@ -241,31 +254,9 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
                                       Watch& watch, const RunContext& context) {
   const bool inner = std::ranges::any_of(progress, [](double p) { return p > 0 && p < 1; });
-  auto path = converged_actuation(scene, inner, progress.back(), watch, context);
-  if (!path) return path;
-  path->contacts = contact_events(*path);
-  TRY(layout, layout_of(path->simulation));
-  TRY_DO(sink.begin(std::move(*layout)));
-  PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
-  std::vector<PathSample> samples;
-  for (std::size_t k = 0; k < progress.size(); ++k) {
-    PathSample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
-    if (progress[k] == 0 && rests_flat(*scene)) {
-      TRY_DO(sampler.take(flat_frame(path->simulation), sample));
-      continue;
-    }
-    const auto segment = segment_at(*path, sample.t);
-    // for a sample that the path did not reach, the end of its last segment is shown
-    const bool past = !path->segments.empty() && sample.t > path->segments.back().end();
-    if (!segment && !past) continue;
-    sample.segment = segment.value_or(path->segments.size() - 1);
-    samples.push_back(sample);
-  }
-  TRY_DO(sampler.all(samples));
-  // the path ended at the first state if its last segment leads back to the flat one; the
-  // simulation is to be in the state of the last frame
-  if (!samples.empty() && path->segments.back().back) certify_sample(*path, samples.back(), watch);
-  return path;
+  return run_experiment(
+      *scene, following(scene, inner, progress.back(), context),
+      [&](const EquilibriumPath& path) { return samples_at(path, progress); }, sink, watch);
 }
 
 }  // namespace gridshell::simulate

@@ -252,6 +252,9 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path) {
     std::ranges::stable_sort(events.begin() + long(first), events.end(), {},
                              [sign](const ContactEvent& event) { return sign * event.t; });
   }
+  for (ContactEvent& event : events)
+    if (const std::string& step = path.segments[event.segment].step; !step.empty())
+      event.text = fmt::format("step {} ({}): {}", event.segment + 1, step, event.text);
   return events;
 }
 

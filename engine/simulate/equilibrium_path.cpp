@@ -71,6 +71,8 @@ void PathSegment::free_states() {
     step.point = {};
     step.point.t = t;
   }
+  path_end.reset();
+  after.reset();
 }
 
 bool EquilibriumPath::too_coarse() const {
@@ -138,135 +140,16 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   return {report, t};
 }
 
-namespace {
-
-record::Limit limit_of(Outcome end) {
-  switch (end) {
-    case Outcome::reached:
-    case Outcome::cancelled:
-      return record::Limit::none;
-    case Outcome::locked:
-      return record::Limit::locking;
-    case Outcome::overbent:
-      return record::Limit::strength;
-    case Outcome::contact:
-      return record::Limit::contact;
-    case Outcome::not_finite:
-      return record::Limit::no_equilibrium;
-    case Outcome::unstable:
-    case Outcome::lost:
-    case Outcome::folded:
-    case Outcome::not_converged:
-    case Outcome::too_coarse:
-      break;
-  }
-  return record::Limit::branch_lost;
-}
-
-/// A sentence on why a segment ended before its requested end.
-std::string how_it_ended(const PathSegment& segment, double max_strain, const At& at) {
-  const Report& report = segment.report;
-  const auto where = [&] {
-    return at(report.t, report.events.empty() ? std::nullopt : report.events.back().error);
-  };
-  const bool begun = report.t == segment.from;
-  if (report.end == Outcome::overbent)
-    return fmt::format("{} a rod is strained {} [limits] {} allows",
-                       begun ? "where the path begins, " + at(report.t, {}) + "," : where(),
-                       begun ? "further than" : "as far as", report.events.back().what);
-  if (report.end == Outcome::locked && !report.events.back().what.empty())
-    return fmt::format(
-        "{} the shell snaps, to an equilibrium in which the rods are longer or shorter than "
-        "[limits] "
-        "max_strain allows",
-        where());
-  const double strain = report.certificate.largest_strain;
-  const bool strained = locked_by_strain(strain, max_strain);
-  if (report.end == Outcome::locked && strained && strain < 0)
-    return fmt::format(
-        "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "
-        "strain is {:.3g}",
-        at(report.t, {}), strain);
-  if (report.end == Outcome::locked)
-    return at(report.t, {}) + " " + text_of_locking(strain, max_strain);
-  if (report.end == Outcome::contact) {
-    const std::string& what = report.events.back().what;
-    const bool touched = !segment.load_steps.back().contacts.interpenetrations.empty();
-    if (touched && begun) return what + " touch in the first state already, " + at(report.t, {});
-    if (touched) return where() + " what touched in the first state would overlap more: " + what;
-    return fmt::format("{} is the last state without contact: past it {} touch", where(), what);
-  }
-  if (segment.back)
-    return fmt::format(
-        "{} on the path back to the flat {}, and no equilibrium was found past it: the states from "
-        "there on "
-        "are certified; how the flat state leads to them is not known",
-        words_of(report.end).what, at(report.t, {}));
-  return fmt::format("{} {}, and no equilibrium was found past it", words_of(report.end).what,
-                     at(report.t, {}));
-}
-
-}  // namespace
-
-std::string text_of_locking(double largest_strain, double max_strain) {
-  return locked_by_strain(largest_strain, max_strain)
-             ? fmt::format("the rods reached the strain limit: the largest strain is {:.3g}",
-                           largest_strain)
-             : "the push met 100 times its first stiffness";
-}
-
-std::string limit_event(const Simulation& simulation, Outcome end) {
-  if (end == Outcome::locked) return "locking";
-  if (end == Outcome::overbent) return "strength";
-  if (end != Outcome::contact) return "";
-  return simulation.contacts().interpenetrations.empty() ? "last state without contact"
-                                                         : "in contact from the start";
-}
-
-std::string branch_losses(std::span<const PathSegment> segments, const At& at, bool jump) {
-  std::string losses;
-  for (const PathSegment& segment : segments)
-    for (const Event& event : segment.report.events)
-      if (event.to && event.jump == jump)
-        losses += (losses.empty() ? "" : " and ") + at(event.t, event.error);
-  return losses;
+double progress_on(const EquilibriumPath& path, std::size_t segment, double t) {
+  if (!path.push) return progress_at(t);
+  if (!path.push->unload) return t;
+  return segment == 0 ? t / 2 : 1 - t / 2;
 }
 
 std::string at_parameter(double t, std::optional<double> error) {
   auto text = fmt::format("at path parameter {:.3f}", t);
   if (error) text += fmt::format(" ± {:.1g}", *error);
   return text;
-}
-
-void set_limit(EquilibriumPath& path) {
-  const At& at = path.at;
-  path.limit = record::Limit::none;
-  path.limit_reason.clear();
-  std::string reported;
-  for (const PathSegment& segment : path.segments) {
-    const auto ended = limit_of(segment.report.end);
-    if (ended != record::Limit::none) {
-      const bool going_back = segment.back && !at_limit(segment.report.end);
-      path.limit = going_back ? record::Limit::no_equilibrium : ended;
-      path.limit_reason = how_it_ended(segment, path.simulation.scene().max_strain, at);
-      break;
-    }
-    const char* on_path = segment.back ? "on the path back to the flat " : "";
-    const auto branches = branch_losses({&segment, 1}, at, false);
-    if (!branches.empty())
-      reported += fmt::format(
-          "{}{}the path branches {} and continues without a snap to the side that the imperfection "
-          "chose",
-          reported.empty() ? "" : "; ", on_path, branches);
-    const auto losses = branch_losses({&segment, 1}, at);
-    if (losses.empty() || path.limit != record::Limit::none) continue;
-    path.limit = record::Limit::snap;
-    reported += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
-                            reported.empty() ? "" : "; ", on_path, losses);
-  }
-  if (path.limit_reason.empty()) path.limit_reason = reported;
-  if (path.mesh_disagreement.empty()) return;
-  path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + path.mesh_disagreement;
 }
 
 }  // namespace gridshell::simulate

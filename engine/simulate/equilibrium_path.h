@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
 #include "engine/simulate/simulation.h"
 
 namespace gridshell::simulate {
@@ -25,6 +26,12 @@ struct PathSegment : PathRecord {
          to = 0;      ///< path parameters of its start and of its requested end, dimensionless
   Report report;      ///< how it ended, its events and cost; written by Simulation::go
   bool back = false;  ///< whether it leads from the first state back towards the flat state
+  // Members of a step, whose motion later steps replace:
+  std::string step = {};      ///< the step as text: "push [0, 0]"; empty: the segment is no step
+  bool sampled = false;       ///< whether frames are sampled along its path
+  std::string reported = {};  ///< sentence on it in addition to its certificate
+  /// The simulation at the end of its path, if the step changes it further, and after the step.
+  std::optional<Checkpoint> path_end = {}, after = {};
   /// 1 where the path parameter grows along the segment, -1 where it falls.
   double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
@@ -49,17 +56,29 @@ using At = std::function<std::string(double t, std::optional<double> error)>;
 /// "at path parameter 0.1234", whatever the experiment.
 std::string at_parameter(double t, std::optional<double> error);
 
-/// A simulation with the segments of the path that were followed in it. The functions
-/// `run_actuation`, `run_indentation` and `run_steps` fill it.
+/// A push of a joint by `displacement`, along the normal of the net, or of the unloaded shell if
+/// there is no net.
+struct Push {
+  int joint = 0;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
+  Eigen::Matrix3Xd before = {};  ///< joints of the unloaded shell, mm, 3 x n
+  bool unload = false;           ///< whether the joint is moved back afterwards
+
+  double depth_mm() const { return displacement.norm(); }
+};
+
+/// A simulation with the segments of the path that were followed in it.
 struct EquilibriumPath {
   /// The simulation that followed the path. Reading a state of the path moves it.
   Simulation simulation;
   /// The segments in the order in which they were followed.
   std::vector<PathSegment> segments = {};
-  std::vector<PathSegment> earlier = {};  ///< for a push: segments of the actuation before it
-  At at = at_parameter;                   ///< how texts name a position on `segments`
-  LevelPlan meshes = {};                  ///< mesh levels on which the path was followed
-  bool single_motion = true;  ///< whether all segments belong to the current motion of `simulation`
+  std::vector<PathSegment> earlier = {};  ///< segments of the actuation before a push or steps
+  std::optional<Push> push = {};          ///< the push of [indentation] that `segments` follow
+  /// Joints that the segments push, for the layout of a run.
+  std::vector<record::LoadedJoint> loaded_joints = {};
+  At at = at_parameter;   ///< how texts name a position on `segments`
+  LevelPlan meshes = {};  ///< mesh levels on which the path was followed
   /// Time to build the meshes and the first state, s.
   double seconds_setup = 0;
   /// A sentence on what a second mesh does not confirm, or on a missed tolerance; empty: neither.
@@ -68,9 +87,13 @@ struct EquilibriumPath {
   /// Which limit ended the path, and the sentence that reports it; written by set_limit().
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};
+  /// Why the step after the last segment could not begin; empty: it did, or there is none.
+  std::string refused = {};
   /// Contacts along the path, written by contact_events().
   std::vector<ContactEvent> contacts = {};
 
+  /// Whether the segments are steps. Else all belong to the current motion of `simulation`.
+  bool of_steps() const { return !segments.empty() && segments.front().after; }
   /// Whether the path ended because its mesh is too coarse (LevelPlan::allowed_mm). Later segments
   /// are then not followed.
   bool too_coarse() const;
@@ -110,9 +133,19 @@ struct PathSample {
   int index = 0;  ///< index of the frame, from 0
   /// Index in EquilibriumPath::segments.
   std::size_t segment = 0;
-  double t = 0;         ///< path parameter
-  double progress = 0;  ///< progress of the experiment, from 0 to 1
+  double t = 0;            ///< path parameter
+  double progress = 0;     ///< progress of the experiment, from 0 to 1
+  double actuation = 1;    ///< progress of the boundary, from 0 to 1
+  bool ends_step = false;  ///< whether it is the state after a step, not one of its path
+  /// `segment` of the state before the path: the flat footprint, or the shell before the steps.
+  static constexpr std::size_t before_path = -1;
 };
+
+/// Progress of an actuation or of the push of [indentation] at path parameter t of a segment.
+double progress_on(const EquilibriumPath& path, std::size_t segment, double t);
+
+/// Whether the shell snapped on the segment.
+bool snapped(const PathSegment& segment);
 
 /// Whether t is between the two branches of a snap, where neither may have a state.
 bool within_snap(const PathSegment& segment, double t);
@@ -128,22 +161,17 @@ struct CertifiedSample {
 /// path do not change. Outcomes as of Simulation::sample().
 CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, const Watch& watch);
 
-/// Text on the limit that a path met which ended as `locked`: that of the strain, or that of the
-/// stiffness of a push.
-std::string text_of_locking(double largest_strain, double max_strain);
-
 /// Text of the frame in which a path ended at a limit; empty for another end.
 std::string limit_event(const Simulation& simulation, Outcome end);
 
-/// Parameters at which the segments lost a branch and continued in another equilibrium, by a snap
-/// (`jump`) or along a branch that bifurcates there: "at progress 0.0183 and at ..."; empty if none
-/// did.
-std::string branch_losses(std::span<const PathSegment> segments, const At& at, bool jump = true);
-
 /// Sets `limit` and `limit_reason` from how the segments ended: the first that ended before its
 /// requested end, else the snaps. Switching to a branch is no limit; the sentence reports where it
-/// happened.
-void set_limit(EquilibriumPath& path);
+/// happened. For a push it reports its limit point, and the snaps of the actuation before it; for
+/// steps it names the step.
+void set_limit(EquilibriumPath& path, const Watch& watch);
+
+/// One sentence for each step of the path: "2 push [0, 0]: reached, residual 3.1e-10 N, stable".
+std::vector<std::string> messages_of_steps(const EquilibriumPath& path);
 
 /// Computes where parts begin to touch and where they separate. Between load steps of one branch
 /// the state is interpolated by the cubic through both.

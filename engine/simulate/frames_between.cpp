@@ -9,6 +9,7 @@
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frame_joints.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/indentation.h"
 #include "engine/solve/equilibrium_path.h"
 
 namespace gridshell::simulate {
@@ -27,11 +28,8 @@ bool smooth(const PathSegment& segment, std::size_t k) {
 
 }  // namespace
 
-FramesBetween::FramesBetween(EquilibriumPath& path,
-                             std::function<void(record::Frame&, double, bool)> measure,
-                             const Watch& watch)
+FramesBetween::FramesBetween(EquilibriumPath& path, const Watch& watch)
     : path_(path),
-      measure_(std::move(measure)),
       watch_(watch),
       contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())) {
   const Simulation& simulation = path.simulation;
@@ -45,16 +43,20 @@ Eigen::VectorXd FramesBetween::curvature(const Eigen::Matrix3Xd& nodes) const {
                         joint_tangents(footprint, path_.simulation.shell().finest(), nodes));
 }
 
-const FramesBetween::Knot* FramesBetween::knot_at(std::size_t step, int quarter, double t,
-                                                  const LoadStep& nearest, const LoadStep* across) {
-  const auto [at, is_new] = known_.try_emplace({step, quarter});
+/// The knot at a load step, or at a quarter between two of them; null: there is no stable state.
+const FramesBetween::Knot* FramesBetween::knot_at(const PathSegment& segment, std::size_t quarter) {
+  const auto [at, is_new] = known_.try_emplace(quarter);
   if (is_new) {
     Simulation& simulation = path_.simulation;
     const NestedShell& shell = simulation.shell();
-    const Report report = simulation.sample(t, nearest, false, watch_, across);
+    const LoadStep* a = &segment.load_steps[quarter / 4];
+    const LoadStep* b = quarter % 4 == 0 ? nullptr : a + 1;
+    const double part = double(quarter % 4) / 4,
+                 t = b ? (1 - part) * a->point.t + part * b->point.t : a->point.t;
+    const Report report = simulation.sample(t, *a, false, watch_, b);
     if (report.end == Outcome::reached && report.certificate.stable()) {
       Knot knot{shell.point(), frame_of(simulation)};
-      measure_(knot.frame, t, false);
+      put_push(path_, knot.frame, t, false);
       const Eigen::Matrix3Xd own = nodes_of(shell.finest(), shell.model(), knot.point.state.x);
       knot.frame.nodes -= own.leftCols(knot.frame.nodes.cols());
       knot.frame.cell_K -= curvature(own);
@@ -82,32 +84,14 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
   return Window{k, first, last};
 }
 
-/// The knots at the load steps of a window; empty if there is no stable state at one of them.
-FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const Window& window) {
+/// The knots from quarter `first` to `last`, each `by` from the one before it; empty if there is no
+/// stable state at one of them.
+FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, std::size_t first,
+                                             std::size_t last, std::size_t by) {
   Knots knots;
-  for (std::size_t k = window.first; k <= window.last; ++k) {
-    const LoadStep& step = segment.load_steps[k];
-    const Knot* knot = knot_at(k, 0, step.point.t, step, nullptr);
-    if (!knot) return {};
-    knots.push_back(knot);
-  }
-  return knots;
-}
-
-/// The knots at the two load steps around a sample and at quarters between them; empty if there is
-/// no stable state at one of them.
-FramesBetween::Knots FramesBetween::knots_between(const PathSegment& segment,
-                                                  const Window& window) {
-  const std::size_t k = window.before;
-  const LoadStep &a = segment.load_steps[k], &b = segment.load_steps[k + 1];
-  Knots knots;
-  for (int quarter = 0; quarter <= 4; ++quarter) {
-    const double part = quarter / 4.0, t = (1 - part) * a.point.t + part * b.point.t;
-    const Knot* knot = quarter == 0   ? knot_at(k, 0, a.point.t, a, nullptr)
-                       : quarter == 4 ? knot_at(k + 1, 0, b.point.t, b, nullptr)
-                                      : knot_at(k, quarter, t, a, &b);
-    if (!knot) return {};
-    knots.push_back(knot);
+  for (std::size_t quarter = first; quarter <= last; quarter += by) {
+    knots.push_back(knot_at(segment, quarter));
+    if (!knots.back()) return {};
   }
   return knots;
 }
@@ -135,14 +119,14 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   if (std::exchange(segment_, sample.segment) != sample.segment) known_.clear();
   const auto window = requested_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
+  const std::size_t before = 4 * window->before, first = 4 * window->first, last = 4 * window->last;
   // earlier knots are no longer needed; a segment back is shown in reverse
   std::erase_if(known_, [&](const auto& known) {
-    const std::size_t step = known.first.first;
-    return segment.back ? step > window->last : step < window->first;
+    return segment.back ? known.first > last + 3 : known.first < first;
   });
-  auto frame = between(sample.t, knots_in(segment, *window));
-  if (!frame) frame = between(sample.t, knots_between(segment, *window));
-  if (frame) measure_(*frame, sample.t, true);
+  auto frame = between(sample.t, knots_in(segment, first, last, 4));
+  if (!frame) frame = between(sample.t, knots_in(segment, before, before + 4, 1));
+  if (frame) put_push(path_, *frame, sample.t, true);
   return frame;
 }
 

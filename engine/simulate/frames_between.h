@@ -2,9 +2,7 @@
 // measured there.
 #pragma once
 
-#include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,9 +24,7 @@ namespace gridshell::simulate {
 /// around it.
 class FramesBetween {
  public:
-  /// `measure`: as in Caption.
-  FramesBetween(EquilibriumPath& path, std::function<void(record::Frame&, double, bool)> measure,
-                const Watch& watch);
+  FramesBetween(EquilibriumPath& path, const Watch& watch);
 
   /// The frame of a sample, without its position on the path and event. Empty if it must be solved:
   /// it is a load step, is on no smooth branch, or the interpolation error exceeds a tenth of the
@@ -53,22 +49,19 @@ class FramesBetween {
     std::size_t before = 0, first = 0, last = 0;
   };
   static std::optional<Window> window_at(const PathSegment& segment, double t);
-  Knots knots_in(const PathSegment& segment, const Window& window);
-  Knots knots_between(const PathSegment& segment, const Window& window);
-  const Knot* knot_at(std::size_t step, int quarter, double t, const LoadStep& nearest,
-                      const LoadStep* across);
+  Knots knots_in(const PathSegment& segment, std::size_t first, std::size_t last, std::size_t by);
+  const Knot* knot_at(const PathSegment& segment, std::size_t quarter);
   Eigen::VectorXd curvature(const Eigen::Matrix3Xd& nodes) const;
   std::optional<Eigen::Matrix3Xd> nodes_at(double t, const Knots& knots, double& doubt_mm) const;
   std::optional<record::Frame> between(double t, const Knots& knots) const;
 
   EquilibriumPath& path_;
-  std::function<void(record::Frame&, double, bool)> measure_;
   const Watch& watch_;
   record::ContactSearch contacts_;
   bool requested_;
-  // key: load step of the segment, and quarter from there to the next one; empty value: there is no
-  // stable state
-  std::map<std::pair<std::size_t, int>, std::optional<Knot>> known_;
+  // key: four times the load step of the segment, plus quarters from there to the next one; empty
+  // value: there is no stable state
+  std::map<std::size_t, std::optional<Knot>> known_;
   std::size_t segment_ = 0;
 };
 

@@ -11,9 +11,7 @@
 #include "engine/scene/net_design.h"
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/frames.h"
-#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/path_sampler.h"
-#include "engine/solve/arc_follower.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -46,70 +44,9 @@ At at_depth(double depth_mm) {
   };
 }
 
-/// Text on the limit point of the path that was lost, found by arc length; empty: none was found.
-std::string turning_back(Simulation& simulation, const PathSegment& segment, const Event& event,
-                         double depth_mm, const Watch& watch) {
-  // the last load step before the snap: the event's parameter may be extrapolated past later steps
-  const LoadStep* last = nullptr;
-  for (const LoadStep& load_step : segment.load_steps) {
-    if (event.to && load_step.point.t == *event.to) break;
-    last = &load_step;
-  }
-  if (!last) return {};
-  const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn = turning_point(simulation.shell().system(), simulation.shell().motion(),
-                                  last->point, segment.sign(), fine, watch);
-  return turn ? fmt::format(" (on its mesh the path has a limit point at {:.3f} mm)",
-                            *turn * depth_mm)
-              : std::string();
-}
-
-/// Why the push stopped or which events it passed, in the terms of a push: the first snap, or the
-/// segment that ended; empty if the common text applies.
-std::string reason_of(PushedShell& pushed, const Watch& watch) {
-  const At& at = pushed.at;
-  const Scene& scene = pushed.simulation.scene();
-  if (pushed.limit == record::Limit::snap)
-    for (const PathSegment& segment : pushed.segments)
-      for (const Event& event : segment.report.events)
-        if (event.to && event.jump)
-          return fmt::format(
-              "with the joint prescribed, the shell lost its {} {}{} and reached another "
-              "equilibrium",
-              event.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
-              at(event.t, event.error),
-              turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));
-  const PathSegment& segment = pushed.segments.back();
-  const double strain = segment.report.certificate.largest_strain;
-  if (pushed.limit == record::Limit::locking && strain != 0)
-    return fmt::format("{} ({:.4f} of the length scale) and {:.4g} N {}", at(segment.report.t, {}),
-                       segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
-                       pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
-                       text_of_locking(strain, scene.max_strain));
-  return {};
-}
-
-void set_push_limit(PushedShell& pushed, const Watch& watch) {
-  const auto disagreement = std::exchange(pushed.mesh_disagreement, {});
-  set_limit(pushed);
-  if (auto reason = reason_of(pushed, watch); !reason.empty())
-    pushed.limit_reason = std::move(reason);
-  const auto add = [&](const std::string& more) {
-    pushed.limit_reason += (pushed.limit_reason.empty() ? "" : "; ") + more;
-  };
-  // which shell was pushed depends on earlier events
-  if (const auto losses = branch_losses(pushed.earlier, at_progress); !losses.empty()) {
-    if (pushed.limit == record::Limit::none) pushed.limit = record::Limit::snap;
-    add("before the push the path lost its stability " + losses +
-        " and reached another equilibrium");
-  }
-  if (!disagreement.empty()) add(disagreement);
-  pushed.mesh_disagreement = disagreement;
-}
-
-Result<PushedShell> follow_push(const std::shared_ptr<const Scene>& scene,
-                                const preset::Indentation& requested, const LevelPlan& plan,
-                                const Watch& watch, const RunContext& context) {
+Result<EquilibriumPath> follow_push(const std::shared_ptr<const Scene>& scene,
+                                    const preset::Indentation& requested, const LevelPlan& plan,
+                                    const Watch& watch, const RunContext& context) {
   auto pushed = prepare_push(scene, requested, plan, watch, context);
   if (pushed && pushed->too_coarse()) return pushed;
   for (double to : requested.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
@@ -121,33 +58,6 @@ Result<PushedShell> follow_push(const std::shared_ptr<const Scene>& scene,
   return pushed;
 }
 
-/// Progress of a push at path parameter t of a segment.
-double progress_at_depth(bool unload, std::size_t segment, double t) {
-  if (!unload) return t;
-  return segment == 0 ? t / 2 : 1 - t / 2;
-}
-
-Caption caption_of(const PushedShell& pushed, bool unload) {
-  const Simulation& simulation = pushed.simulation;
-  return {[unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
-          [&](record::Frame& frame, double t, double) {
-            frame.actuation = 1;
-            frame.boundary_radius_mm = simulation.scene().radius_end_mm;
-            frame.depth_mm = t * pushed.depth_mm();
-          },
-          [&](record::Frame& frame, double t, bool between) {
-            const Eigen::Vector3d force =
-                between ? frame.reactions_N.col(pushed.push.joint) : simulation.force(0);
-            frame.force_N = pushed.push.displacement.normalized().dot(force);
-            if (!between) simulation.put_push_errors(frame);
-            const PushReach reach = push_reach(
-                pushed.before, frame.nodes.leftCols(pushed.before.cols()), t * pushed.depth_mm());
-            frame.reach_above_tenth = reach.above_tenth;
-            frame.reach_above_half = reach.above_half;
-            frame.lowest_latitude_deg = reach.lowest_latitude_deg;
-          }};
-}
-
 /// The sample of the push at a frame's progress.
 PathSample sample_of(std::size_t index, double progress, bool unload) {
   if (!unload) return {int(index), 0, progress, progress};
@@ -157,13 +67,13 @@ PathSample sample_of(std::size_t index, double progress, bool unload) {
 
 /// Adds the load steps of the path to its samples, so that a curve through them turns where the
 /// path does. The step at a limit has a frame of its own.
-void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSample>& samples) {
+void add_load_steps(const EquilibriumPath& path, std::vector<PathSample>& samples) {
   constexpr double equal = 1e-9;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];
     for (const LoadStep& step : segment.load_steps) {
       if (&step == &segment.load_steps.back() && at_limit(segment.report.end)) continue;
-      samples.push_back({0, s, step.point.t, progress_at_depth(unload, s, step.point.t)});
+      samples.push_back({0, s, step.point.t, progress_on(path, s, step.point.t)});
     }
   }
   std::ranges::stable_sort(samples, {}, &PathSample::progress);
@@ -175,8 +85,6 @@ void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSa
 }
 
 }  // namespace
-
-double PushedShell::depth_mm() const { return push.displacement.norm(); }
 
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
   if (std::ranges::find(footprint.fixed_joints, joint) == footprint.fixed_joints.end() ||
@@ -201,17 +109,18 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
                     joints.colwise().normalized().transpose() * direction_of(indentation));
 }
 
-Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
-                       const NestedShell& shell) {
+Result<Push> push_of(const preset::Indentation& requested, const Scene& scene,
+                     const NestedShell& shell) {
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
-  Eigen::Matrix3Xd positions = shell.state().x.leftCols(joints);
+  Push push{.before = shell.state().x.leftCols(joints), .unload = requested.unload};
+  Eigen::Matrix3Xd positions = push.before;
   if (scene.net) {
     TRY(net, points_on(*scene.net, shell.finest().flat.leftCols(joints)));
     positions = std::move(*net);
   }
   TRY(joint, pushed_joint(requested, scene.footprint, positions));
   TRY_DO(not_on_boundary(scene.footprint, *joint));
-  PushOf push{*joint};
+  push.joint = *joint;
   if (scene.net) {
     const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
     TRY(point, scene.net->at(at.u, at.v));
@@ -229,26 +138,36 @@ Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
   return push;
 }
 
-Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
-                                 const preset::Indentation& requested, const LevelPlan& plan,
-                                 const Watch& watch, const RunContext& context) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch, context));
-  if (actuated->too_coarse()) return PushedShell{std::move(*actuated), {}, {}};
-  Simulation& simulation = actuated->simulation;
-  TRY(push, push_of(requested, *scene, simulation.shell()));
-  const auto joints = Eigen::Index(scene->footprint.joints.size());
-  Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
-  PushedShell pushed{std::move(*actuated), *push, std::move(before)};
-  pushed.at = at_depth(pushed.depth_mm());
-  Constraint constraint{push->joint};
-  if (requested.lateral == preset::Lateral::free)
-    constraint.directions = push->displacement.normalized();
+Result<EquilibriumPath> prepare_push(const std::shared_ptr<const Scene>& scene,
+                                     const preset::Indentation& requested, const LevelPlan& plan,
+                                     const Watch& watch, const RunContext& context) {
+  auto pushed = follow_whole_actuation(scene, plan, "to push", watch, context);
+  if (!pushed || pushed->too_coarse()) return pushed;
+  TRY(push, push_of(requested, *scene, pushed->simulation.shell()));
+  pushed->at = at_depth(push->depth_mm());
+  const Across across = requested.lateral == preset::Lateral::free ? Across::free : Across::fixed;
   const Report taken =
-      pushed.simulation.begin_joint_push({constraint}, {push->displacement}, watch);
+      pushed->simulation.begin_push(push->joint, push->displacement, across, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 "the unloaded shell has no equilibrium with the pushed joint fixed");
+  pushed->loaded_joints = {{push->joint, push->displacement.normalized()}};
+  pushed->push = std::move(*push);
   return pushed;
+}
+
+void put_push(const EquilibriumPath& path, record::Frame& frame, double t, bool interpolated) {
+  if (!path.push) return path.simulation.put_push(frame);
+  const Push& push = *path.push;
+  const Eigen::Vector3d force =
+      interpolated ? frame.reactions_N.col(push.joint) : path.simulation.force(0);
+  frame.force_N = push.displacement.normalized().dot(force);
+  if (!interpolated) path.simulation.put_push_errors(frame);
+  const PushReach reach =
+      push_reach(push.before, frame.nodes.leftCols(push.before.cols()), t * push.depth_mm());
+  frame.reach_above_tenth = reach.above_tenth;
+  frame.reach_above_half = reach.above_half;
+  frame.lowest_latitude_deg = reach.lowest_latitude_deg;
 }
 
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
@@ -256,25 +175,19 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const std::vector<double>& progress, bool own_steps,
                                         record::Sink& sink, Watch& watch,
                                         const RunContext& context) {
-  auto kept = converged_path(
+  return run_experiment(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
         return follow_push(scene, indentation, plan, w, context);
       },
-      watch);
-  if (!kept) return tl::unexpected<Error>(kept.error());
-  set_push_limit(*kept, watch);
-  kept->contacts = contact_events(*kept);
-  TRY(layout, layout_of(kept->simulation));
-  layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
-  TRY_DO(sink.begin(std::move(*layout)));
-  std::vector<PathSample> samples;
-  for (std::size_t k = 0; k < progress.size(); ++k)
-    samples.push_back(sample_of(k, progress[k], indentation.unload));
-  if (own_steps) add_load_steps(*kept, indentation.unload, samples);
-  PathSampler sampler(*kept, caption_of(*kept, indentation.unload), sink, watch, samples.size());
-  TRY_DO(sampler.all(samples));
-  return EquilibriumPath(std::move(*kept));
+      [&](const EquilibriumPath& path) {
+        std::vector<PathSample> samples;
+        for (std::size_t k = 0; k < progress.size(); ++k)
+          samples.push_back(sample_of(k, progress[k], indentation.unload));
+        if (own_steps) add_load_steps(path, samples);
+        return samples;
+      },
+      sink, watch);
 }
 
 }  // namespace gridshell::simulate

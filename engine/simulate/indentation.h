@@ -20,30 +20,22 @@ Result<void> not_on_boundary(const Footprint& footprint, int joint);
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints);
 
-/// The push of a preset: the joint, and its complete displacement along the normal of the net, or
-/// of the unloaded shell if there is no net.
-struct PushOf {
-  int joint = 0;
-  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
-};
-
 /// The push of a preset on an unloaded shell. Errors (bad_input) as pushed_joint().
-Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
-                       const NestedShell& shell);
+Result<Push> push_of(const preset::Indentation& indentation, const Scene& scene,
+                     const NestedShell& shell);
 
-/// An actuated shell with a constraint at the joint to be pushed, and the push.
-struct PushedShell : EquilibriumPath {
-  PushOf push;
-  Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
+/// Actuates on the meshes of `plan` and constrains the joint: a path with a push, and no segment
+/// yet. A path that is too_coarse() has no push. Errors: bad_input as push_of(), no_equilibrium (no
+/// shell to push, or none with the constraint), cancelled.
+Result<EquilibriumPath> prepare_push(const std::shared_ptr<const Scene>& scene,
+                                     const preset::Indentation& indentation, const LevelPlan& plan,
+                                     const Watch& watch, const RunContext& context = {});
 
-  double depth_mm() const;
-};
-
-/// Actuates on the meshes of `plan` and constrains the joint. Errors: bad_input as push_of(),
-/// no_equilibrium (no shell to push, or none with the constraint), cancelled.
-Result<PushedShell> prepare_push(const std::shared_ptr<const Scene>& scene,
-                                 const preset::Indentation& indentation, const LevelPlan& plan,
-                                 const Watch& watch, const RunContext& context = {});
+/// Writes the push of a path into a frame: force, its error, and reach. With [indentation] the
+/// force is the component of the joint's reaction along the push, and t the fraction of the depth;
+/// steps are measured by Simulation::put_push(). The frame is that of the current state, or
+/// `interpolated` between load steps.
+void put_push(const EquilibriumPath& path, record::Frame& frame, double t, bool interpolated);
 
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (fraction of the depth;
 /// with `unload` of loading and unloading); the first is the unloaded shell. The solver chooses its

@@ -112,8 +112,8 @@ bool meshes_agree(const EquilibriumPath& coarse, const EquilibriumPath& fine) {
          mesh_tolerances.same_state * coarse.simulation.scene().footprint.spacing;
 }
 
-Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
-                                         const Watch& watch) {
+Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
+                                       const Watch& watch) {
   LevelPlan plan = initial_levels(scene);
   const bool requested = scene.edges_per_segment > 0;
   const double allowed =
@@ -121,11 +121,11 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
   plan.allowed_mm = allowed;
   plan.events_apart = mesh_tolerances.same_event;
   TRY_DO(fits_memory(scene, plan));
-  SharedPath coarse;
+  std::optional<EquilibriumPath> coarse;
   for (int doublings = 0;;) {
     auto path = follow(plan, watch);
     if (!path || watch.cancelled()) return path;
-    EquilibriumPath& found = **path;
+    EquilibriumPath& found = *path;
     found.meshes = plan;
     if (coarse) {
       found.simulation.charge(coarse->simulation.effort());
@@ -152,10 +152,10 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     if (too_coarse && (!next || !fits)) {
       // the path is followed on the finest possible mesh, with a report of what it misses
       plan.allowed_mm = std::numeric_limits<double>::infinity();
-      coarse = nullptr;
+      coarse.reset();
       auto last = follow(plan, watch);
       if (!last || watch.cancelled()) return last;
-      EquilibriumPath& kept = **last;
+      EquilibriumPath& kept = *last;
       kept.meshes = plan;
       kept.simulation.charge(found.simulation.effort());
       const double worst = worst_estimate_mm(kept);
@@ -175,8 +175,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     found.simulation.shell().free_memory();
     for (auto* segments : {&found.earlier, &found.segments})
       for (PathSegment& segment : *segments) segment.free_states();
-    // of a longer type what is compared
-    coarse = std::make_shared<EquilibriumPath>(std::move(found));
+    coarse = std::move(found);
     plan = *next;
     plan.allowed_mm = allowed;
   }

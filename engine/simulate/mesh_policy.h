@@ -9,11 +9,8 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
-#include <utility>
 
 #include "engine/simulate/equilibrium_path.h"
 
@@ -39,31 +36,14 @@ inline constexpr MeshTolerances mesh_tolerances;
 /// Initial meshes: those for the tolerance, or those requested in the preset.
 LevelPlan initial_levels(const Scene& scene);
 
-using SharedPath = std::shared_ptr<EquilibriumPath>;
 /// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
-using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>;
+using Follow = std::function<Result<EquilibriumPath>(const LevelPlan&, const Watch&)>;
 
 /// The path on the coarsest mesh that is fine enough. `doubt` reports what is missed or not
 /// confirmed: the tolerance, an event, a state. Errors: those of `follow`; bad_input if the first
 /// meshes do not fit the memory.
-Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
-                                         const Watch& watch);
-
-/// Overload for an EquilibriumPath or a type made from one: follow(plan, watch) returns a Result of
-/// that type.
-template <class FollowPath>
-auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch) {
-  using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;
-  using Path = typename Found::value_type;
-  const auto shared = [](Path&& path) -> SharedPath {
-    return std::make_shared<Path>(std::move(path));
-  };
-  return converged_shared_path(
-             scene,
-             [&](const LevelPlan& plan, const Watch& w) { return follow(plan, w).map(shared); },
-             watch)
-      .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
-}
+Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
+                                       const Watch& watch);
 
 /// A sentence on what a path's finest mesh and the next coarser one disagree on; empty: they agree.
 std::optional<std::string> not_confirmed(const EquilibriumPath& path);

@@ -9,6 +9,7 @@
 #include "engine/core/try.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/frames_between.h"
+#include "engine/simulate/indentation.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -22,47 +23,121 @@ bool came_to(const EquilibriumPath& path, const PathSample& sample) {
   return segment.sign() * (segment.end() - sample.t) >= 0;
 }
 
-}  // namespace
+/// Certifies samples of a path in the order in which they are shown and passes their frames to a
+/// sink.
+class PathSampler {
+ public:
+  PathSampler(EquilibriumPath& path, record::Sink& sink, Watch& watch)
+      : path_(path),
+        simulation_(path.simulation),
+        between_(path, watch),
+        sink_(sink),
+        watch_(watch) {}
 
-PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
-                         std::size_t count)
-    : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
+  Result<void> all(const std::vector<PathSample>& samples);
+
+ private:
+  Result<void> before_path(const PathSample& sample);
+  Result<void> of_step(const PathSample& sample);
+  Result<bool> on_path(const PathSample& sample);
+  Result<void> at_end(int index, const Checkpoint& end);
+  Result<void> take_current(const PathSample& sample, std::string event, double past,
+                            int newton_iterations = 0);
+  Result<void> take_at(record::Frame frame, const PathSample& sample, std::string event,
+                       double past);
+  Result<void> take(record::Frame frame, const PathSample& sample);
+  Result<void> motions(const PathSample& sample, double past);
+  std::string events(const PathSample& sample, double past) const;
+
+  EquilibriumPath& path_;
+  Simulation& simulation_;
+  FramesBetween between_;
+  record::Sink& sink_;
+  Watch& watch_;
+  std::size_t count_ = 0, next_snap_ = 0;
+  std::optional<PathSample> last_;
+  double last_reached_t_ = 0;  // CertifiedSample::past of the last sample
+  int taken_ = 0;
+};
 
 Result<void> PathSampler::all(const std::vector<PathSample>& samples) {
-  if (path_.segments.empty()) return {};
-  const Checkpoint end = path_.simulation.save();
-  const PathSegment& last = path_.segments.back();
+  count_ = samples.size();
+  const Checkpoint end = simulation_.save();
+  const PathSegment* last = path_.segments.empty() ? nullptr : &path_.segments.back();
   for (const PathSample& sample : samples) {
+    if (sample.segment == PathSample::before_path) {
+      TRY_DO(before_path(sample));
+      continue;
+    }
+    if (path_.of_steps()) {
+      TRY_DO(of_step(sample));
+      continue;
+    }
     if (came_to(path_, sample)) {
-      TRY(taken, at(sample));
+      TRY(taken, on_path(sample));
       if (*taken) continue;
     }
-    if (!at_limit(last.report.end) || last.back) continue;
-    path_.simulation.restore(end);
-    // the path converges to its own tolerance, a frame to round-off
-    if (path_.simulation.sample(end.state.t, last.load_steps.back(), false, watch_).end !=
-        Outcome::reached)
-      path_.simulation.restore(end);
-    PathSample there{sample.index, path_.segments.size() - 1, end.state.t};
-    there.progress = caption_.progress(there.segment, there.t);
-    TRY_DO(take_current(there, limit_event(path_.simulation, last.report.end), there.t));
+    if (!at_limit(last->report.end) || last->back) continue;
+    TRY_DO(at_end(sample.index, end));
     break;
   }
-  path_.simulation.restore(end);
+  simulation_.restore(end);
+  // the path ended at the first state if its last segment leads back to the flat one
+  if (last && last->back && samples.back().segment != PathSample::before_path)
+    certify_sample(path_, samples.back(), watch_);
   return {};
 }
 
-Result<bool> PathSampler::at(const PathSample& sample) {
-  if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);
+/// Passes the flat footprint as a frame, or the shell before the steps.
+Result<void> PathSampler::before_path(const PathSample& sample) {
+  if (!path_.of_steps()) return take(flat_frame(simulation_), sample);
+  simulation_.restore(*path_.earlier.back().after);
+  return take_current(sample, "", sample.t);
+}
+
+/// Passes the state after a step as a frame, or one of its path, if it can be certified.
+Result<void> PathSampler::of_step(const PathSample& sample) {
+  const PathSegment& segment = path_.segments[sample.segment];
+  if (sample.ends_step) {
+    simulation_.restore(*segment.after);
+    std::string event = at_limit(segment.report.end) ? limit_event(simulation_, segment.report.end)
+                        : segment.sampled
+                            ? events(sample, sample.t)
+                            : segment.step + (snapped(segment) ? ": snap to another state" : "");
+    return take_current(sample, std::move(event), sample.t);
+  }
+  simulation_.restore(segment.path_end ? *segment.path_end : *segment.after);
+  const auto [report, past] = certify_sample(path_, sample, watch_);
+  if (watch_.cancelled()) return stopped();
+  if (report.end != Outcome::reached) return {};
+  return take_current(sample, events(sample, past), past);
+}
+
+/// Passes the state at the limit that ended the path as a frame.
+Result<void> PathSampler::at_end(int index, const Checkpoint& end) {
+  const PathSegment& last = path_.segments.back();
+  simulation_.restore(end);
+  // the path converges to its own tolerance, a frame to round-off
+  if (simulation_.sample(end.state.t, last.load_steps.back(), false, watch_).end !=
+      Outcome::reached)
+    simulation_.restore(end);
+  PathSample there{index, path_.segments.size() - 1, end.state.t};
+  there.progress = progress_on(path_, there.segment, there.t);
+  if (!path_.push) there.actuation = there.progress;
+  return take_current(there, limit_event(simulation_, last.report.end), there.t);
+}
+
+/// Passes the frame of a sample. Returns false if it cannot be certified.
+Result<bool> PathSampler::on_path(const PathSample& sample) {
   // the final state is solved: its residual and stability are those of the result
-  auto frame = sample.progress < 1 ? between_->at(sample) : std::nullopt;
+  auto frame = sample.progress < 1 ? between_.at(sample) : std::nullopt;
   if (frame) {
     TRY_DO(motions(sample, sample.t));
     return take_at(std::move(*frame), sample, events(sample, sample.t), sample.t).map([] {
       return true;
     });
   }
-  const int before = path_.simulation.effort().newton_iterations;
+  const int before = simulation_.effort().newton_iterations;
   const auto [report, past] = certify_sample(path_, sample, watch_);
   if (watch_.cancelled()) return stopped();
   if (report.end != Outcome::reached) {
@@ -78,14 +153,14 @@ Result<bool> PathSampler::at(const PathSample& sample) {
   std::string event = events(sample, past);
   if (const int pivots = report.certificate.negative_pivots; event.empty() && pivots > 0)
     event = fmt::format("unstable: {} negative pivots", pivots);
-  const int newton = path_.simulation.effort().newton_iterations - before;
+  const int newton = simulation_.effort().newton_iterations - before;
   return take_current(sample, std::move(event), past, newton).map([] { return true; });
 }
 
 Result<void> PathSampler::take_current(const PathSample& sample, std::string event, double past,
                                        int newton_iterations) {
-  record::Frame frame = frame_of(path_.simulation);
-  caption_.measure(frame, sample.t, false);
+  record::Frame frame = frame_of(simulation_);
+  put_push(path_, frame, sample.t, false);
   frame.newton_iterations = newton_iterations;
   return take_at(std::move(frame), sample, std::move(event), past);
 }
@@ -103,10 +178,13 @@ Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample,
 }
 
 Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
+  const Scene& scene = simulation_.scene();
   // if there may be frames of snaps between the samples, all frames are counted
-  frame.index = path_.simulation.scene().snap.requested ? taken_ : sample.index;
+  frame.index = scene.snap.requested ? taken_ : sample.index;
   frame.progress = sample.progress;
-  caption_.set_position(frame, sample.t, sample.progress);
+  frame.actuation = sample.actuation;
+  frame.boundary_radius_mm = path_.push ? scene.radius_end_mm : scene.radius_at(sample.actuation);
+  if (path_.push) frame.depth_mm = sample.t * path_.push->depth_mm();
   ++taken_;
   watch_.report(0.5 + 0.5 * double(taken_) / double(count_));
   return sink_.take(std::move(frame));
@@ -122,13 +200,13 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
     const double landed = segment.load_steps[snap.before + 1].point.t;
     if (segment.sign() * (past - landed) < 0) break;
     // frames_in_motion() assembles other states in the simulation
-    if (!here) here = path_.simulation.save();
+    if (!here) here = simulation_.save();
     PathSample there = sample;
     there.t = landed;
-    for (record::Frame& frame : frames_in_motion(path_.simulation, landed, snap.moments))
+    for (record::Frame& frame : frames_in_motion(simulation_, landed, snap.moments))
       if (auto taken = take(std::move(frame), there); !taken) return taken;
   }
-  if (here) path_.simulation.restore(*here);
+  if (here) simulation_.restore(*here);
   return {};
 }
 
@@ -157,6 +235,22 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
     text += (text.empty() ? "" : "; ") + event.text;
   }
   return text;
+}
+
+}  // namespace
+
+Result<EquilibriumPath> run_experiment(const Scene& scene, const Follow& follow,
+                                       const ChooseSamples& choose, record::Sink& sink,
+                                       Watch& watch) {
+  auto path = converged_path(scene, follow, watch);
+  if (!path) return path;
+  set_limit(*path, watch);
+  path->contacts = contact_events(*path);
+  TRY(layout, layout_of(path->simulation));
+  layout->loaded_joints = path->loaded_joints;
+  TRY_DO(sink.begin(std::move(*layout)));
+  TRY_DO(PathSampler(*path, sink, watch).all(choose(*path)));
+  return path;
 }
 
 }  // namespace gridshell::simulate

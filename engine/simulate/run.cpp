@@ -157,7 +157,7 @@ void put_seams(const Scene& scene, record::Summary& s) {
 std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
-  if (!path.single_motion || !simulation.constraints().empty()) return "";
+  if (path.of_steps() || !simulation.constraints().empty()) return "";
   constexpr double indistinguishable = 0.02;  // in units of d
   double least = scene.tolerance * scene.length_scale_mm / 4;
   if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
@@ -177,7 +177,7 @@ std::string late_on_branch(const EquilibriumPath& path) {
   constexpr double late = 0.05;  // in the path parameter
   for (const PathSegment& segment : path.segments)
     for (const Event& event : segment.report.events)
-      if (path.single_motion && !event.jump && event.to && std::abs(*event.to - event.t) > late)
+      if (!path.of_steps() && !event.jump && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
             "a branch bifurcates from the path at progress {:.4f}, and its first state was "
             "found at progress {:.4f}: if several branches bifurcate there, which one it is may "
@@ -256,11 +256,10 @@ Result<void> check_opening(const preset::Preset& preset, const Scene& scene) {
   return invalid("[[step]] 1: {}{}", bolts.error().message, against.empty() ? "" : "; " + against);
 }
 
-/// Follows and samples the experiment of a preset; for steps with a report of each.
+/// Follows and samples the experiment of a preset.
 Result<EquilibriumPath> path_for(const preset::Preset& preset,
                                  const std::shared_ptr<const Scene>& scene, bool stills,
-                                 std::vector<std::string>& reported, LastFrame& sink, Watch& watch,
-                                 const RunContext& context) {
+                                 LastFrame& sink, Watch& watch, const RunContext& context) {
   // for a push all frames of a movie, or enough for its force curve
   const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
   if (preset.indentation.requested())
@@ -268,10 +267,7 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
   if (preset.step.empty())
     return run_actuation(scene, samples_of(preset, stills), sink, watch, context);
   // stills show each step's end
-  TRY(stepped,
-      run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch, context));
-  reported = std::move(stepped->messages);
-  return std::move(stepped->path);
+  return run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch, context);
 }
 
 /// Why a path without a limit has no frame at the requested state.
@@ -346,8 +342,7 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
                                const RunContext& context) {
   const double begin = seconds_now();
   LastFrame sink(frames, watch);
-  std::vector<std::string> reported;
-  auto path = path_for(preset, scene, stills, reported, sink, watch, context);
+  auto path = path_for(preset, scene, stills, sink, watch, context);
   if (watch.cancelled()) return stopped();
   if (!path) return tl::unexpected<Error>(path.error());
   if (!sink.frame())
@@ -356,7 +351,7 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
                     (path->limit_reason.empty() ? not_in_the_flat(*path) : path->limit_reason));
   summary = summary_of(preset, *scene, sink);
   put_path(*path, summary);
-  summary.steps = std::move(reported);
+  summary.steps = messages_of_steps(*path);
   if (preset.indentation.requested() && !path->simulation.constraints().empty()) {
     const int pushed = path->simulation.constraints().front().node;
     const FootprintJoint& at = scene->footprint.joints[std::size_t(pushed)];

@@ -4,32 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "engine/simulate/actuation.h"
-#include "engine/simulate/frames.h"
-#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/path_sampler.h"
 
 namespace gridshell::simulate {
 namespace {
 
 using preset::StepKind;
-
-/// A finished step; its segment of the path has the same index.
-struct Done {
-  Checkpoint path_end, end;   ///< at the end of its path; the state of the shell after the step
-  std::string reported = {};  ///< sentence about it in addition to its certificate
-};
-
-/// All steps on the meshes of one plan.
-struct Work : EquilibriumPath {
-  Checkpoint begin;
-  std::vector<Done> done = {};
-  std::string refused = {};  ///< why the step after the last segment could not begin; empty: none
-};
 
 /// Whether frames are sampled along the path of a step, which a segment then stores: for a push,
 /// for a joint actuation, and for a move of the whole boundary if no edge point is displaced
@@ -40,11 +25,6 @@ bool has_path(const std::vector<preset::Step>& steps, std::size_t k) {
   const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
                                    [](const auto& step) { return step.kind == StepKind::move; });
   return steps[k].edge_points.empty() && (before == steps.rend() || before->edge_points.empty());
-}
-
-bool snapped(const PathSegment& segment) {
-  return std::ranges::any_of(segment.report.events,
-                             [](const Event& one) { return one.to && one.jump; });
 }
 
 /// Completes the segment of a step. Without a path it has only the state at its end.
@@ -88,184 +68,84 @@ Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
   return begun;
 }
 
-Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
-                      const std::vector<preset::Step>& steps, const LevelPlan& plan,
-                      const Watch& watch, const RunContext& context) {
+/// Adds the joint of a push to the loaded joints, if it was moved.
+void note_load(EquilibriumPath& path, const preset::Step& step) {
+  const Simulation& simulation = path.simulation;
+  const auto joint = joint_of(step, simulation.scene().footprint);
+  // a push that failed leaves no constraint
+  const auto origin = simulation.constraint_origins.find(joint.value_or(-1));
+  if (origin == simulation.constraint_origins.end()) return;
+  const Eigen::Vector3d moved = simulation.nodes().col(*joint) - origin->second;
+  if (moved.norm() > nearest_mm &&
+      std::ranges::find(path.loaded_joints, *joint, &record::LoadedJoint::joint) ==
+          path.loaded_joints.end())
+    path.loaded_joints.push_back({*joint, moved.normalized(), true});
+}
+
+/// Applies the steps on the meshes of one plan, a segment each. The last segment of `earlier` has
+/// the shell before them.
+Result<EquilibriumPath> follow_steps(const std::shared_ptr<const Scene>& scene,
+                                     const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                                     const Watch& watch, const RunContext& context) {
   std::string reported;
-  TRY(actuated, begin(scene, steps, plan, watch, context, reported));
-  Checkpoint begin = actuated->simulation.save();
-  Work work{std::move(*actuated), std::move(begin)};
-  if (work.too_coarse()) return work;
-  work.single_motion = false;
-  work.at = at_fraction;
-  Simulation& simulation = work.simulation;
+  auto path = begin(scene, steps, plan, watch, context, reported);
+  if (!path || path->too_coarse()) return path;
+  path->at = at_fraction;
+  Simulation& simulation = path->simulation;
+  path->earlier.back().after = simulation.save();
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const StepKind kind = steps[k].kind;
     const double to = kind == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
-    PathSegment& segment = work.segments.emplace_back(PathSegment{{}, 0, to, {}});
-    StepPath path;
-    auto report = apply_step(simulation, steps[k], watch, &path);
+    PathSegment& segment = path->segments.emplace_back(PathSegment{{}, 0, to, {}});
+    auto report = apply_step(simulation, steps[k], watch, &segment);
     if (watch.cancelled()) return stopped();
     if (!report) {
       std::string why = fmt::format("[[step]] {}: {}", k + 1, report.error().message);
       if (k == 0) return fail(report.error().fault, std::move(why));
       // the steps before it are kept
-      work.segments.pop_back();
-      work.refused = std::move(why);
+      path->segments.pop_back();
+      path->refused = std::move(why);
       break;
     }
     segment.report = std::move(*report);
-    static_cast<PathRecord&>(segment) = std::move(path);
     close(segment, simulation);
-    work.done.push_back({std::move(path.end), simulation.save()});
+    segment.after = simulation.save();
+    segment.step = text_of(steps[k]);
+    segment.sampled = has_path(steps, k);
+    if (kind == StepKind::push) note_load(*path, steps[k]);
     if (kind == StepKind::open)
-      work.done.back().reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
+      segment.reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
     if (segment.report.end != Outcome::reached) break;
   }
-  return work;
+  return path;
 }
 
-/// Passes the frames of all steps to a sink.
-class Show {
- public:
-  Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
-       Watch& watch)
-      : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
-    for (const int frames_of_step : shares_) count_ += frames_of_step;
-    sampler_.emplace(work, caption(), sink, watch, std::size_t(count_) + 1);
-  }
-
-  Result<void> all() {
-    Simulation& simulation = work_.simulation;
-    simulation.restore(work_.begin);
-    boundary_ = {1, 1};
-    // the first frame belongs to no step
-    if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
-    for (step_ = 0; step_ < work_.done.size(); ++step_)
-      if (auto shown = one(); !shown) return shown;
-    simulation.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
-    return {};
-  }
-
- private:
-  /// Takes the frames along the path of a step, and the one at its end.
-  Result<void> one() {
-    const Done& done = work_.done[step_];
-    const PathSegment& segment = work_.segments[step_];
-    const int count = shares_[step_];
-    boundary_ = {boundary_[1], done.end.boundary.progress};
-    for (int k = 1; k < count; ++k) {
-      const double part = double(k) / count;
-      const bool moves = steps_[step_].kind == StepKind::move;
-      const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
-                             : segment.from + part * (segment.end() - segment.from);
-      if (auto taken = between(done, sample(t)); !taken) return taken;
+/// The shell before the steps, and as many samples of each step as frames_of_steps() gives.
+std::vector<PathSample> samples_of(const EquilibriumPath& path,
+                                   const std::vector<preset::Step>& steps, int frames) {
+  const std::vector<int> shares = frames_of_steps(steps, frames);
+  const int count = std::accumulate(shares.begin(), shares.end(), 0);
+  std::vector<PathSample> samples{{0, PathSample::before_path, 1, 0}};
+  double before = 1;  // progress of the boundary
+  for (std::size_t k = 0; k < path.segments.size(); ++k) {
+    const PathSegment& segment = path.segments[k];
+    const double after = segment.after->boundary.progress;
+    const bool moves = steps[k].kind == StepKind::move;
+    for (int n = 1; n <= shares[k]; ++n) {
+      const double part = double(n) / shares[k];
+      const int index = int(samples.size());
+      PathSample sample{index, k, segment.end(), double(index) / count};
+      sample.ends_step = n == shares[k];
+      if (!sample.ends_step)
+        sample.t = moves ? parameter_at(before + part * (after - before))
+                         : segment.from + part * (segment.end() - segment.from);
+      sample.actuation =
+          moves && segment.sampled && before != after ? progress_at(sample.t) : after;
+      samples.push_back(sample);
     }
-    work_.simulation.restore(done.end);
-    const PathSample last = sample(segment.end());
-    return sampler_->take_current(last, event(last), last.t);
+    before = after;
   }
-
-  /// Takes the frame at a sample of the path of a step, if there is a state.
-  Result<void> between(const Done& done, const PathSample& sample) {
-    Simulation& simulation = work_.simulation;
-    simulation.restore(done.path_end);
-    const CertifiedSample certified = certify_sample(work_, sample, watch_);
-    if (watch_.cancelled()) return stopped();
-    if (certified.report.end != Outcome::reached) return {};
-    return sampler_->take_current(sample, sampler_->events(sample, certified.past), certified.past);
-  }
-
-  PathSample sample(double t) {
-    ++index_;
-    return {index_, step_, t, double(index_) / count_};
-  }
-
-  /// Text of the frame at the end of a step.
-  std::string event(const PathSample& sample) const {
-    const PathSegment& segment = work_.segments[step_];
-    if (at_limit(segment.report.end)) return limit_event(work_.simulation, segment.report.end);
-    if (has_path(steps_, step_)) return sampler_->events(sample, sample.t);
-    return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
-  }
-
-  Caption caption() {
-    return {{},
-            [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
-            [this](record::Frame& frame, double, bool) { work_.simulation.put_push(frame); }};
-  }
-
-  void put_boundary(record::Frame& frame, double t) const {
-    const bool moving = step_ < steps_.size() && steps_[step_].kind == StepKind::move &&
-                        has_path(steps_, step_) && boundary_[0] != boundary_[1];
-    frame.actuation = moving ? progress_at(t) : boundary_[1];
-    frame.boundary_radius_mm = work_.simulation.scene().radius_at(frame.actuation);
-  }
-
-  Work& work_;
-  const std::vector<preset::Step>& steps_;
-  Watch& watch_;
-  std::vector<int> shares_;
-  int count_ = 0, index_ = 0;
-  std::size_t step_ = 0;
-  std::array<double, 2> boundary_{1, 1};  // progress before and after the step
-  std::optional<PathSampler> sampler_;
-};
-
-/// "2 push [0, 0]: reached, residual 3.1e-10 N, stable"
-std::string message_of(std::size_t k, const preset::Step& step, const PathSegment& segment) {
-  const Report& report = segment.report;
-  std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
-  for (const Event& event : report.events)
-    if (event.to)
-      text += fmt::format(", {} {}", event.jump ? "snap to another state" : "branches",
-                          at_fraction(event.t, event.error));
-  const Certificate& certificate = report.certificate;
-  text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
-  text += certificate.stable()
-              ? "stable"
-              : fmt::format("unstable: {} negative pivots", certificate.negative_pivots);
-  if (std::isfinite(certificate.error_estimate_mm))
-    text += fmt::format(", error {:.2g} mm", certificate.error_estimate_mm);
-  return text;
-}
-
-/// Sets the limit of the path and names its step in front of the reason.
-void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
-  set_limit(work);
-  if (!work.refused.empty()) {
-    work.limit = record::Limit::no_equilibrium;
-    work.limit_reason = work.refused;
-    return;
-  }
-  if (work.limit == record::Limit::none) return;
-  // the event that ended the path, else the first snap
-  const auto ended = std::ranges::find_if(work.segments, [](const PathSegment& segment) {
-    return segment.report.end != Outcome::reached;
-  });
-  const auto named =
-      ended != work.segments.end() ? ended : std::ranges::find_if(work.segments, snapped);
-  if (named == work.segments.end()) return;
-  const auto k = std::size_t(named - work.segments.begin());
-  work.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
-}
-
-void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {
-  for (std::size_t k = 0; k < work.done.size(); ++k) {
-    if (steps[k].kind != StepKind::push) continue;
-    const Checkpoint& end = work.done[k].end;
-    const auto joint_pushed = joint_of(steps[k], work.simulation.scene().footprint);
-    // a push that failed leaves no constraint
-    const auto origin =
-        joint_pushed ? end.constraint_origins.find(*joint_pushed) : end.constraint_origins.end();
-    if (origin == end.constraint_origins.end()) continue;
-    const int joint = origin->first;
-    const Eigen::Vector3d moved = end.state.x.col(joint) - origin->second;
-    const bool there = std::ranges::any_of(layout.loaded_joints,
-                                           [&](const auto& load) { return load.joint == joint; });
-    if (!there && moved.norm() > nearest_mm)
-      layout.loaded_joints.push_back({joint, moved.normalized(), true});
-  }
+  return samples;
 }
 
 }  // namespace
@@ -332,31 +212,16 @@ std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int fra
   return shares;
 }
 
-Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
-                              const std::vector<preset::Step>& steps, int frames,
-                              record::Sink& sink, Watch& watch, const RunContext& context) {
+Result<EquilibriumPath> run_steps(const std::shared_ptr<const Scene>& scene,
+                                  const std::vector<preset::Step>& steps, int frames,
+                                  record::Sink& sink, Watch& watch, const RunContext& context) {
   TRY_DO(check_steps(steps, scene->footprint));
-  auto work = converged_path(
+  return run_experiment(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
-        return do_steps(scene, steps, plan, w, context);
+        return follow_steps(scene, steps, plan, w, context);
       },
-      watch);
-  if (!work) return tl::unexpected<Error>(work.error());
-  name_step_of_limit(*work, steps);
-  work->contacts = contact_events(*work);
-  for (ContactEvent& event : work->contacts)
-    event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
-                             event.text);
-  TRY(layout, layout_of(work->simulation));
-  put_loads(*work, steps, *layout);
-  TRY_DO(sink.begin(std::move(*layout)));
-  TRY_DO(Show(*work, steps, frames, sink, watch).all());
-  StepsResult stepped{EquilibriumPath(std::move(*work))};
-  for (std::size_t k = 0; k < stepped.path.segments.size(); ++k)
-    stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]) +
-                               (k < work->done.size() ? work->done[k].reported : ""));
-  return stepped;
+      [&](const EquilibriumPath& path) { return samples_of(path, steps, frames); }, sink, watch);
 }
 
 }  // namespace gridshell::simulate

@@ -224,7 +224,11 @@ class Simulation {
   Report move_to(double progress, const Watch& watch, PathRecord* record = nullptr);
   /// Moves the edge points on straight lines to the end of `motion`.
   Report move_edge_points(const BoundaryMotion& motion, const Watch& watch);
-  /// Pushes a joint by `displacement`, mm. The joint is constrained until release().
+  /// Constrains a joint until release(), and prepares its push by `displacement`, mm, which go()
+  /// then follows.
+  Report begin_push(int joint, const Eigen::Vector3d& displacement, Across across,
+                    const Watch& watch);
+  /// begin_push(), and go() to its end.
   Report push(int joint, const Eigen::Vector3d& displacement, Across across, const Watch& watch,
               PathRecord* record = nullptr);
   /// Releases a joint: its reaction is reduced to zero in equal steps.
@@ -248,10 +252,6 @@ class Simulation {
   /// Refines the meshes until the error estimate is below `tolerance_mm`, or until no finer plan
   /// exists or fits the memory.
   Report refine(double tolerance_mm, const Watch& watch);
-  /// Prepares a push of several joints that go() then follows: one constraint and one
-  /// displacement, mm, for each.
-  Report begin_joint_push(std::vector<Constraint> constraints,
-                          std::vector<Eigen::Vector3d> displacements, const Watch& watch);
 
   // ---- save and restore ----
 

@@ -80,33 +80,13 @@ Report Simulation::move_edge_points(const BoundaryMotion& motion, const Watch& w
                {}, watch);
 }
 
-Report Simulation::begin_joint_push(std::vector<Constraint> constraints,
-                                    std::vector<Eigen::Vector3d> displacements,
-                                    const Watch& watch) {
+Report Simulation::begin_push(int joint, const Eigen::Vector3d& displacement, Across across,
+                              const Watch& watch) {
   const CallBegin begin = call_begin();
   const Checkpoint before = save();
   const LoadFactor load = steady_load();
-  along_.resize(0);
-  for (std::size_t k = 0; k < constraints.size(); ++k) {
-    const Eigen::VectorXd part = constraints[k].directions.transpose() * displacements[k];
-    along_.conservativeResize(along_.size() + part.size());
-    along_.tail(part.size()) = part;
-  }
-  along_.normalize();
-  shell_->drive(
-      {.constraints = constraints, .displacements = std::move(displacements), .load = load});
-  constraints_ = std::move(constraints);
-  actuating_ = false;
-  const Outcome started = start_here(0, before, watch);
-  if (started == Outcome::reached) first_stiffness_ = push_stiffness();
-  return report(started, shell_->state().t, begin);
-}
-
-Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,
-                        const Watch& watch, PathRecord* record) {
   std::vector<Constraint> constraints = constraints_;
-  std::erase_if(constraints,
-                [&](const Constraint& constraint) { return constraint.node == joint; });
+  std::erase_if(constraints, [&](const Constraint& one) { return one.node == joint; });
   Constraint constraint{joint};
   if (across == Across::free) constraint.directions = displacement.normalized();
   constraints.push_back(constraint);
@@ -117,10 +97,25 @@ Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across a
   const double first_stiffness = goes_on ? first_stiffness_ : 0;
   std::vector<Eigen::Vector3d> displacements(constraints.size(), Eigen::Vector3d::Zero());
   displacements.back() = displacement;
-  const Report taken = begin_joint_push(std::move(constraints), std::move(displacements), watch);
-  if (taken.end != Outcome::reached) return taken;
-  if (first_stiffness > 0) first_stiffness_ = first_stiffness;
-  return go(1, watch, {}, record);
+  Eigen::Index entries = 0;
+  for (const Constraint& one : constraints) entries += one.directions.cols();
+  along_.setZero(entries);
+  along_.tail(constraint.directions.cols()) = constraint.directions.transpose() * displacement;
+  along_.normalize();
+  shell_->drive(
+      {.constraints = constraints, .displacements = std::move(displacements), .load = load});
+  constraints_ = std::move(constraints);
+  actuating_ = false;
+  const Outcome started = start_here(0, before, watch);
+  if (started == Outcome::reached)
+    first_stiffness_ = first_stiffness > 0 ? first_stiffness : push_stiffness();
+  return report(started, shell_->state().t, begin);
+}
+
+Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,
+                        const Watch& watch, PathRecord* record) {
+  const Report begun = begin_push(joint, displacement, across, watch);
+  return begun.end == Outcome::reached ? go(1, watch, {}, record) : begun;
 }
 
 Report Simulation::release(int joint, const Watch& watch) {

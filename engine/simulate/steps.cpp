@@ -31,14 +31,13 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
 }
 
 Result<Report> move(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                    StepPath* path) {
+                    PathSegment* path) {
   const Scene& scene = simulation.scene();
   TRY(dragged, dragged_of(step, scene));
   BoundaryPosition& boundary = simulation.boundary;
   const double progress = progress_of(step, scene);
   if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
     const Report report = simulation.move_to(progress, watch, path);
-    if (path) path->end = simulation.save();
     boundary.progress = simulation.progress();
     return report;
   }
@@ -85,15 +84,14 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
   return goal;
 }
 
-Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch, StepPath* path) {
+Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch,
+                    PathSegment* path) {
   Eigen::Vector3d displacement = goal.target - simulation.nodes().col(goal.joint);
   if (goal.free) displacement = goal.along * goal.along.dot(displacement);
   // a push without displacement constrains the joint along the push direction
   if (displacement.norm() < nearest_mm) displacement = nearest_mm * goal.along;
-  const Report report = simulation.push(goal.joint, displacement,
-                                        goal.free ? Across::free : Across::fixed, watch, path);
-  if (path) path->end = simulation.save();
-  return report;
+  return simulation.push(goal.joint, displacement, goal.free ? Across::free : Across::fixed, watch,
+                         path);
 }
 
 Result<Report> release(Simulation& simulation, const preset::Step& step, const Watch& watch) {
@@ -145,7 +143,7 @@ Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Wa
 }
 
 Result<Report> take_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                         StepPath* path) {
+                         PathSegment* path) {
   switch (step.kind) {
     case preset::StepKind::move:
       return move(simulation, step, watch, path);
@@ -199,7 +197,7 @@ double progress_of(const preset::Step& step, const Scene& scene) {
 }
 
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                          StepPath* path) {
+                          PathSegment* path) {
   auto report = take_step(simulation, step, watch, path);
   std::erase_if(simulation.constraint_origins, [&](const auto& origin) {
     return std::ranges::none_of(simulation.constraints(), [&](const Constraint& constraint) {

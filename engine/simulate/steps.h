@@ -22,11 +22,6 @@ Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
 /// The progress to which a move step goes.
 double progress_of(const preset::Step& step, const Scene& scene);
 
-/// Path of a move, a push or a joint actuation: its load steps, and the simulation at its end.
-struct StepPath : PathRecord {
-  Checkpoint end = {};
-};
-
 /// Checks that steps name existing joints and cells, and release only what an earlier step fixed.
 /// Errors: bad_input with the step's number.
 Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint);
@@ -34,9 +29,10 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
 /// Applies one step. A step that ends early leaves the simulation in its last certified state;
 /// `rest`, `jitter` and a `release` without an equilibrium leave it in the state before them.
 /// Errors (bad_input): a joint or an edge point that does not exist, nothing to release, individual
-/// displacements of edge points whose rods' directions are prescribed.
+/// displacements of edge points whose rods' directions are prescribed. `path` gets the load steps
+/// of a move, a push or a joint actuation.
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                          StepPath* path = nullptr);
+                          PathSegment* path = nullptr);
 
 // A run of a preset with steps: the shell is actuated, then the steps are applied in order.
 
@@ -45,24 +41,16 @@ Result<Report> apply_step(Simulation& simulation, const preset::Step& step, cons
 /// actuations and moves of the whole boundary.
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames);
 
-/// How the steps ended.
-struct StepsResult {
-  EquilibriumPath path;
-  std::vector<std::string> messages = {};  ///< one sentence for each step that was started
-};
-
 /// Applies the steps in order until one ends early, which is then the path's limit, and passes
 /// certified frames to the sink: the shell before the steps, and as many frames of each step as
 /// frames_of_steps() gives. Frames only sample the paths of the steps. Meshes are chosen and events
 /// confirmed as for a path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no
 /// initial shell), cancelled, those of the sink.
-Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
-                              const std::vector<preset::Step>& steps, int frames,
-                              record::Sink& sink, Watch& watch, const RunContext& context = {});
+Result<EquilibriumPath> run_steps(const std::shared_ptr<const Scene>& scene,
+                                  const std::vector<preset::Step>& steps, int frames,
+                                  record::Sink& sink, Watch& watch, const RunContext& context = {});
 
 // Stiffening and loading of a formed shell: bolts, braces, load cases.
-
-struct StepPath;
 
 /// Fixes the current angles of all joints. Errors (bad_input): a shell that is still flat.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
@@ -82,7 +70,7 @@ Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprin
 /// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
 /// have.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                    StepPath* path);
+                    PathSegment* path);
 
 /// Text on the crossing angles that a joint actuation reached: "joints at 62.1 degrees on average,
 /// ...".

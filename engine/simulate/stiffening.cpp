@@ -128,7 +128,7 @@ Result<Report> tighten(Simulation& simulation, const preset::Step& step, const W
 }
 
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                    StepPath* path) {
+                    PathSegment* path) {
   TRY_DO(check_formed(simulation));
   const double stiffness = stiffness_of(step);
   const auto known = simulation.rods().bolts;
@@ -160,7 +160,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   auto report = simulation.set_rods(rods, watch);
   if (!report || report->end != Outcome::reached) return report;
   report = simulation.open_joints(watch, path);
-  if (path) path->end = simulation.save();
+  if (path) path->path_end = simulation.save();
   // from now on this is the joints' natural angle
   for (std::size_t joint = 0; joint < by->size(); ++joint)
     bolts.opened[joint] += report->t * std::exchange(bolts.opening[joint], 0);

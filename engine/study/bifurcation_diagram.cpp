@@ -283,7 +283,7 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   Result<BranchStart> start = stopped();
   if (preset.indentation.requested())
     start = simulate::prepare_push(scene, preset.indentation, plan, watch)
-                .map([](simulate::PushedShell pushed) {
+                .map([](simulate::EquilibriumPath pushed) {
                   return BranchStart{std::move(pushed.simulation), 0, 1, true};
                 });
   else

@@ -21,10 +21,7 @@ double largest(const Energies& a) {
 int interpolated_frames(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
   constexpr std::size_t segment = 0;
   Watch watch;
-  const auto measure = [&](record::Frame& frame, double, bool between) {
-    if (!between) path.simulation.put_push(frame);
-  };
-  FramesBetween between(path, measure, watch), backwards(path, measure, watch);
+  FramesBetween between(path, watch), backwards(path, watch);
   const double from = path.segments[segment].from, way = path.segments[segment].end() - from;
   const Eigen::Index joints = path.simulation.shell().finest().joints;
   int interpolated = 0;
@@ -83,12 +80,12 @@ TEST_CASE("frames that are interpolated between load steps are within their erro
 TEST_CASE("frames of a push, with its force, are interpolated between load steps", "[standard]") {
   const preset::Preset p = shipped("s4_pole_outward");
   const auto pushed = [&](bool closely) {
-    PushedShell shell = value_of(prepare_push(unloaded_scene(p, closely), p.indentation,
-                                              initial_levels(*shared_scene(p)), unwatched));
+    EquilibriumPath shell = value_of(prepare_push(unloaded_scene(p, closely), p.indentation,
+                                                  initial_levels(*shared_scene(p)), unwatched));
     follow_segment(shell, 1, {}, unwatched);
     return shell;
   };
-  PushedShell path = pushed(false), closely = pushed(true);
+  EquilibriumPath path = pushed(false), closely = pushed(true);
   CHECK(interpolated_frames(path, closely, 40) > 25);
 }
 
@@ -110,8 +107,7 @@ TEST_CASE("no frame is interpolated over a bifurcation", "[standard]") {
   const PathSegment& segment = path.segments[0];
   int left = 0;
   Watch watch;
-  FramesBetween between(
-      path, [](record::Frame&, double, bool) {}, watch);
+  FramesBetween between(path, watch);
   for (const Event& event : segment.report.events)
     if (event.to) {
       ++left;

@@ -29,20 +29,20 @@ struct Prescribed {
 /// Applies the policy to prescribed paths, prescribed(edges), which are not followed; `tried` gets
 /// the edges of the meshes in order.
 template <class Prescribe>
-Result<SharedPath> policy(const Scene& scene, const Prescribe& prescribed,
-                          std::vector<int>& tried) {
+Result<EquilibriumPath> policy(const Scene& scene, const Prescribe& prescribed,
+                               std::vector<int>& tried) {
   const auto shared = std::make_shared<const Scene>(scene);
-  const Follow follow = [&](const LevelPlan& plan, const Watch&) -> Result<SharedPath> {
+  const Follow follow = [&](const LevelPlan& plan, const Watch&) -> Result<EquilibriumPath> {
     const int edges = plan.edges_per_segment.back();
     tried.push_back(edges);
     auto simulation = Simulation::open(shared, plan);
     if (!simulation) return tl::unexpected<Error>(simulation.error());
     if (simulation->begin_flat().end != Outcome::reached)
       return fail(Fault::no_equilibrium, "the flat");
-    auto path = std::make_shared<EquilibriumPath>(EquilibriumPath{std::move(*simulation)});
+    EquilibriumPath path{std::move(*simulation)};
     const Prescribed one = prescribed(edges);
     PathSegment segment{{}, 0, 1, {}};
-    LoadStep step{path->simulation.shell().point(), {}};
+    LoadStep step{path.simulation.shell().point(), {}};
     step.point.t = 1;
     step.certificate.error_estimate_mm = one.too_coarse ? 1 : 1e-3;
     segment.load_steps.push_back(step);
@@ -53,10 +53,10 @@ Result<SharedPath> policy(const Scene& scene, const Prescribe& prescribed,
       event.location = {edges, one.event_t, 0};
       segment.report.events.push_back(event);
     }
-    path->segments.push_back(std::move(segment));
+    path.segments.push_back(std::move(segment));
     return path;
   };
-  return converged_shared_path(scene, follow, unwatched);
+  return converged_path(scene, follow, unwatched);
 }
 
 const Scene& small() {
@@ -71,8 +71,8 @@ TEST_CASE("a path that its companion confirms is followed once") {
   const auto path = value_of(policy(
       small(), [](int) { return Prescribed{}; }, tried));
   CHECK(tried == std::vector<int>{8});
-  CHECK(path->mesh_disagreement.empty());
-  CHECK_FALSE(path->tolerance_missed);
+  CHECK(path.mesh_disagreement.empty());
+  CHECK_FALSE(path.tolerance_missed);
 }
 
 TEST_CASE("an event that the companion does not have takes twice the edges, until one has it") {
@@ -82,7 +82,7 @@ TEST_CASE("an event that the companion does not have takes twice the edges, unti
   };
   const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16, 32});
-  CHECK(path->mesh_disagreement.empty());
+  CHECK(path.mesh_disagreement.empty());
 }
 
 TEST_CASE("two meshes that agree are enough, and the event lies between them") {
@@ -92,8 +92,8 @@ TEST_CASE("two meshes that agree are enough, and the event lies between them") {
   };
   const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16});
-  CHECK(path->mesh_disagreement.empty());
-  const Event& event = path->segments[0].report.events[0];
+  CHECK(path.mesh_disagreement.empty());
+  const Event& event = path.segments[0].report.events[0];
   CHECK(event.t == Approx(0.488 - 0.012 / 3));
   CHECK(event.error.value() == Approx(0.012 / 3));
 }
@@ -103,8 +103,8 @@ TEST_CASE("meshes that never agree are doubled three times, and the doubt is sai
   const auto prescribed = [](int edges) { return Prescribed{false, false, std::log2(edges) / 8}; };
   const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16, 32, 64});
-  CHECK_THAT(path->mesh_disagreement, Catch::StartsWith("32 edges per segment do not have the "
-                                                        "event at path parameter 0.75"));
+  CHECK_THAT(path.mesh_disagreement, Catch::StartsWith("32 edges per segment do not have the "
+                                                       "event at path parameter 0.75"));
 }
 
 TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is missed") {
@@ -112,18 +112,18 @@ TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is 
   const auto path = value_of(policy(
       small(), [](int) { return Prescribed{true}; }, tried));
   CHECK(tried == std::vector<int>{8, 16, 32, 64, 128, 128});
-  CHECK(path->tolerance_missed);
-  CHECK(path->segments.back().report.end == Outcome::reached);
-  CHECK_THAT(path->mesh_disagreement, Catch::StartsWith("the tolerance 0.001 is not met: 128 ") &&
-                                          Catch::EndsWith(", at path parameter 1.000"));
+  CHECK(path.tolerance_missed);
+  CHECK(path.segments.back().report.end == Outcome::reached);
+  CHECK_THAT(path.mesh_disagreement, Catch::StartsWith("the tolerance 0.001 is not met: 128 ") &&
+                                         Catch::EndsWith(", at path parameter 1.000"));
   const auto next = value_of(policy(
       small(),
       [](int) {
         return Prescribed{true, true, 0.97};
       },
       tried));
-  CHECK_THAT(next->mesh_disagreement, Catch::EndsWith("1.000, next to an event, where a state "
-                                                      "moves most"));
+  CHECK_THAT(next.mesh_disagreement, Catch::EndsWith("1.000, next to an event, where a state "
+                                                     "moves most"));
 }
 
 TEST_CASE("a mesh that memory does not have ends the doubling, with its reason") {
@@ -134,7 +134,7 @@ TEST_CASE("a mesh that memory does not have ends the doubling, with its reason")
       scene, [](int) { return Prescribed{true}; }, tried));
   CHECK(tried.back() < 128);
   CHECK(tried[tried.size() - 2] == tried.back());
-  CHECK_THAT(path->mesh_disagreement, Catch::Contains("GB of [accuracy] memory_GB"));
+  CHECK_THAT(path.mesh_disagreement, Catch::Contains("GB of [accuracy] memory_GB"));
 }
 
 TEST_CASE("on a mesh that is requested the companion's doubt is said and nothing is doubled") {
@@ -148,7 +148,7 @@ TEST_CASE("on a mesh that is requested the companion's doubt is said and nothing
       },
       tried));
   CHECK(tried == std::vector<int>{8});
-  CHECK_FALSE(path->mesh_disagreement.empty());
+  CHECK_FALSE(path.mesh_disagreement.empty());
 }
 
 TEST_CASE("who watches a path sees where it is and which mesh is followed") {
