@@ -54,27 +54,25 @@ std::string completeness_text(const record::StateTables& states) {
       states.search.at_rest, all.estimate, all.low, all.high);
 }
 
-/// A series for each class, the last first, with `value` over the elastic energy.
+/// A series for each class, with `value` over the elastic energy, and before them their keys.
 template <class Value>
 std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
-  std::vector<render::Series> all;
+  std::vector<render::Series> keys, all;
   for (const auto& [kind, word] : gridshell::words_of<StateClass>()) {
     const render::ClassLook look = render::look_of(kind);
-    render::Series series = render::mark_series(class_text(kind), look.colour, look.marker);
-    series.hollow = kind == StateClass::other;
-    for (const StateRow& row : rows) {
-      if (row.kind != kind) continue;
-      series.add(row.energy_mJ(), value(row));
-    }
-    if (!series.x.empty()) all.push_back(std::move(series));
+    render::Series key = render::mark_series(class_text(kind), look.colour, look.marker);
+    key.hollow = kind == StateClass::other;
+    render::Series series = key;
+    series.name.clear();
+    for (const StateRow& row : rows)
+      if (row.kind == kind) series.add(row.energy_mJ(), value(row));
+    if (series.x.empty()) continue;
+    keys.push_back(std::move(key));
+    all.push_back(std::move(series));
   }
   // the many others are drawn first, below the few of the paper; the legend has the paper's order
-  std::vector<render::Series> keys = all;
-  for (render::Series& key : keys) key.x.clear(), key.y.clear();
-  std::ranges::reverse(all);
-  for (render::Series& series : all) series.name.clear();
-  std::ranges::move(keys, std::back_inserter(all));
-  return all;
+  std::ranges::reverse_copy(all, std::back_inserter(keys));
+  return keys;
 }
 
 render::Plot energies_plot(const record::StateTables& states) {
