@@ -126,7 +126,8 @@ std::string group_text(const std::string& group) {
 }
 
 record::Trajectory states_alone(const record::Trajectory& run,
-                                const std::vector<std::size_t>& which) {
+                                const std::vector<std::size_t>& which, render::MovieStyle& style) {
+  style.look.ghost = false;
   record::Trajectory few;
   few.layout = run.layout;
   few.layout.original_boundary = run.layout.actuated_boundary;
@@ -189,12 +190,10 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
     return render::write_plot(fs::path(stem) += suffix, titled, style.print);
   };
   render::MovieStyle stills = style;
-  // the states are no motion, from which the first one would remain as a ghost
-  stills.look.ghost = false;
+  const record::Trajectory drawn = states_alone(one.trajectory, which, stills);
   if (which.size() < states.rows.size() && !style.title.empty())
     stills.title += fmt::format(" ({} of {} states)", which.size(), states.rows.size());
-  TRY_DO(render::write_stills(states_alone(one.trajectory, which), stills, {}, renderer, stem,
-                              watch, captions));
+  TRY_DO(render::write_stills(drawn, stills, {}, renderer, stem, watch, captions));
   TRY_DO(plot_at("_energies", energies_plot(states)));
   TRY_DO(plot_at("_lives", lives_plot(states)));
   if (!states.transitions.empty())
