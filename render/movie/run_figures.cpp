@@ -237,7 +237,7 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const record::Frame& last = runs[k].run->frames.back();
     Drawing drawing = stages[k].drawing(last);
-    if (!stages[k].ghost_caption(last).empty()) figure.keys = {{ghost_ink, "unloaded"}};
+    if (const auto ghost = stages[k].ghost_key(last)) figure.keys = {*ghost};
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     // wider rods, since their colours are the result
     drawing.rod_diameter_mm *= 1.5 * wider;

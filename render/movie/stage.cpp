@@ -216,14 +216,20 @@ std::optional<ArrowKey> Stage::arrow_key() const {
   return render::arrow_key(run_, survey_.largest_load_N);
 }
 
-std::string Stage::ghost_caption(const record::Frame& frame) const {
+std::optional<ColourKey> Stage::ghost_key(const record::Frame& frame) const {
   constexpr double least = 0.01;  // of the length scale
   // the shell has moved but its boundary has not
   const bool shown = style_.look.ghost && frame.nodes.cols() == survey_.first.nodes.cols() &&
                      frame.actuation == survey_.first.actuation &&
                      survey_.largest_move_mm > least * run_.length_scale_mm &&
                      frame.nodes != survey_.first.nodes;
-  return !shown ? "" : std::isfinite(frame.depth_mm) ? "grey: unloaded" : "grey: first state";
+  if (!shown) return {};
+  return ColourKey{ghost_ink, std::isfinite(frame.depth_mm) ? "unloaded" : "first state"};
+}
+
+std::string Stage::ghost_caption(const record::Frame& frame) const {
+  const auto key = ghost_key(frame);
+  return key ? "grey: " + key->name : "";
 }
 
 Drawing Stage::drawing(const record::Frame& frame) const {
@@ -261,10 +267,10 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     put_supports(run_, frame, survey_.supported, look, drawing);
   // joints, which shine, would look like interruptions of colours
   if (!drawing.node_colours.empty() && !look.joint_chosen) drawing.joint_diameter_mm = 0;
-  if (!ghost_caption(frame).empty())
+  if (const auto ghost = ghost_key(frame))
     // behind the moved shell, whose colours it would cover if seen from above
     drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
-                              0.8 * drawing.rod_diameter_mm, ghost_ink,
+                              0.8 * drawing.rod_diameter_mm, ghost->colour,
                               std::max(0.25 * run_.spacing_mm, survey_.largest_move_mm)});
   for (const LoadArrow& arrow : load_arrows(run_, frame)) {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
