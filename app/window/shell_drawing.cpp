@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/canvas/text.h"
+#include "render/gl/laths.h"
 #include "render/movie/frame_overlay.h"
 #include "render/movie/run_summary.h"
 
@@ -281,12 +282,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   drawing.rod_diameter_mm = std::max(layout.rod_diameter_mm, thin_mm);
   drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
-  if (!layout.laths_mm.empty()) {
-    drawing.laths_mm = layout.laths_mm;
-    drawing.rod_colour = render::lath_ink;
-    // the bolts of laths are narrower than the laths
-    if (show.joints) drawing.joint_diameter_mm = 0.5 * std::ranges::max(layout.laths_mm);
-  }
+  render::put_laths(layout.laths_mm, drawing);
   put_colours(shell, show, drawing);
   // not drawn if the supports do not move, or if the line through them is none of the preset
   if (show.rings && shell.preset.style.rings != preset::Visibility::off &&

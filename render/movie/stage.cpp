@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/core/try.h"
+#include "render/gl/laths.h"
 #include "render/movie/run_plots.h"
 
 namespace gridshell::render {
@@ -241,17 +242,10 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.rod_colour = look.rod;
   drawing.rod_diameter_mm = std::max(look.rod_mm > 0 ? look.rod_mm : run_.rod_diameter_mm, thin);
   drawing.joint_colour = look.joint;
-  if (look.rod_mm == 0) drawing.laths_mm = run_.laths_mm;
-  if (look.rod_mm == 0 && run_.laths_mm.empty() && look.lath_width_mm > 0)
-    for (std::size_t r = 0; r < run_.rods.size(); ++r)
-      drawing.laths_mm.insert(drawing.laths_mm.end(), {look.lath_width_mm, look.lath_thickness_mm});
-  if (!drawing.laths_mm.empty() && !look.rod_chosen && look.rod == Appearance{}.rod)
-    drawing.rod_colour = lath_ink;
   drawing.joint_diameter_mm =
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
-  // the bolts of laths are narrower than the laths
-  if (!drawing.laths_mm.empty() && look.joint_mm > 0)
-    drawing.joint_diameter_mm = 0.5 * *std::ranges::max_element(drawing.laths_mm);
+  put_laths(laths_of(run_, look), drawing);
+  if (look.rod_chosen || look.rod != Appearance{}.rod) drawing.rod_colour = look.rod;
   drawing.cell_colours = cell_colours(frame);
   drawing.node_colours = node_colours(frame);
   // rods are wider so that their colours are visible
