@@ -14,31 +14,22 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double paling = 0.2;  // start of the colour map of rods: thin pale lines cannot be seen
-
 struct ColourText {
   const char* label;
   const char* meaning;
-  const char *marked, *words;  // label and text of the colour bar of pictures, as in movies
 };
 /// The texts, in the order of ColourBy.
 constexpr ColourText colour_texts[] = {
-    {"nothing", "rods and joints alone", "", ""},
-    {"K□ (rad)", "integrated Gauss curvature of each cell", "*K*_{□} (rad)",
-     "integrated Gauss curvature"},
-    {"|u| (mm)", "how far each point moved since the shell was formed", "|*u*| (mm)",
-     "displacement"},
-    {"ΔK□ (rad)", "its change since the shell was formed", "Δ*K*_{□} (rad)",
-     "change of integrated Gauss curvature"},
-    {"Δ/ρ", "distance of a cell's joints from the net, over ρ", "Δ/*ρ*", "distance from the net"},
-    {"bending (mJ/m)", "bending energy a length of rod", "*e*_{b} (mJ/m)",
-     "bending energy over length"},
-    {"axial force (N)", "of the rods; below 0 they are compressed", "*N* (N)", "axial force"},
-    {"σ (MPa)", "largest stress of a fibre, by axial force and bending", "*σ* (MPa)",
-     "largest stress of a fibre"},
-    {"σ / strength", "that over the rods' strength", "*σ* / strength", "utilisation of the rods"},
-    {"joint angle (°)", "between the rods at joints with laws or springs", "*α* (°)",
-     "angle between the rods at joints"},
+    {"nothing", "rods and joints alone"},
+    {"K□ (rad)", "integrated Gauss curvature of each cell"},
+    {"|u| (mm)", "how far each point moved since the shell was formed"},
+    {"ΔK□ (rad)", "its change since the shell was formed"},
+    {"Δ/ρ", "distance of a cell's joints from the net, over ρ"},
+    {"bending (mJ/m)", "bending energy a length of rod"},
+    {"axial force (N)", "of the rods; below 0 they are compressed"},
+    {"σ (MPa)", "largest stress of a fibre, by axial force and bending"},
+    {"σ / strength", "that over the rods' strength"},
+    {"joint angle (°)", "between the rods at joints with laws or springs"},
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
@@ -159,11 +150,12 @@ std::string label_of(const ShellView& shell, const Show& show) {
   return colour_texts[std::size_t(by)].label;
 }
 render::ColourBar bar_of(const ShellView& shell, const Show& show) {
-  const auto& text = colour_texts[std::size_t(show.colour_by)];
+  render::ColourBar bar = render::named_bar(show.colour_by, show.scale);
   const std::string label = label_of(shell, show);
-  const bool own = label == text.label;  // another label explains itself
-  render::ColourBar bar{own ? text.marked : render::plain(label), show.scale};
-  if (own) bar.words = text.words;
+  if (label != colour_texts[std::size_t(show.colour_by)].label)
+    bar.label = render::plain(label), bar.words = "";  // another label explains itself
+  else if (show.colour_by == ColourBy::displacement)
+    bar.label = "|*u*| (mm)", bar.words = "displacement";
   bar.ends = true;
   const Eigen::VectorXd values = values_of(shell, show);
   const double slack = 1e-9 * (show.scale.high - show.scale.low);
@@ -175,58 +167,19 @@ const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meani
 
 Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
   if (!shell.any()) return {};
-  switch (show.colour_by) {
-    case ColourBy::none:
-      return {};
-    case ColourBy::K:
-      return shell.frame.cell_K;
-    case ColourBy::K_change:
-      if (shell.first->cell_K.size() != shell.frame.cell_K.size()) return {};
-      return shell.frame.cell_K - shell.first->cell_K;
-    case ColourBy::deviation:
-      return shell.deviation;
-    case ColourBy::energy:
-      return shell.bending_mJ_m;
-    case ColourBy::axial_force:
-      return shell.axial_N;
-    case ColourBy::stress:
-    case ColourBy::utilisation:
-      return record::stress_of_nodes_MPa(*shell.layout, shell.frame,
-                                         show.colour_by == ColourBy::utilisation);
-    case ColourBy::joint_angle:
-      return record::joint_angle_of_nodes_deg(*shell.layout, shell.frame);
-    case ColourBy::displacement:
-      if (!show.other) return displacement(shell, shell.first->nodes);
-      if (!same_joints(shell.layout->joints, show.other->seen->layout->joints)) return {};
-      return displacement(shell, show.other->seen->frame.nodes);
-  }
-  return {};
+  if (show.colour_by == ColourBy::deviation) return shell.deviation;
+  if (show.colour_by != ColourBy::displacement)
+    return render::coloured_values(show.colour_by, *shell.layout, shell.frame, {*shell.first});
+  if (!show.other) return displacement(shell, shell.first->nodes);
+  if (!same_joints(shell.layout->joints, show.other->seen->layout->joints)) return {};
+  return displacement(shell, show.other->seen->frame.nodes);
 }
 
 render::ColourScale scale_of(const ShellView& shell, const Show& show) {
-  const ColourBy by = show.colour_by;
-  const Eigen::VectorXd all = values_of(shell, show);
-  const double start = render::of_cells(by) ? 0 : paling;
-  render::ColourScale scale =
-      render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
-  if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
-    // so that round-off has no colour
-    const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
-    const bool changed = all.size() > 0 && all.cwiseAbs().maxCoeff() >= least;
-    if (!changed || scale.high < least) scale.low = -least, scale.high = least;
-    scale.start = start;
-    return scale;
-  }
-  if (by == ColourBy::joint_angle && all.size() > 0) {
-    double low = INFINITY, high = -INFINITY;
-    for (const double angle : all) low = std::fmin(low, angle), high = std::fmax(high, angle);
-    return {render::sequential, low, std::max(high, low + 0.01), start};
-  }
-  const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
-  // of these, the largest value is in the range
-  const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
-  const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
-  return {render::sequential, 0, end, start};
+  const Eigen::VectorXd values = values_of(shell, show);
+  render::Interval all;
+  for (const double value : values) all.take(value);
+  return render::colour_scale(show.colour_by, {values.begin(), values.end()}, all);
 }
 
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
