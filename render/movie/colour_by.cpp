@@ -42,7 +42,8 @@ const Quantity& quantity_of(ColourBy by) {
        {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true, false, 1}},
       {ColourBy::energy, {"*e*_{b} (mJ/m)", "bending energy over length", false, true, 1e-6, true}},
       {ColourBy::axial_force, {"*N* (N)", "axial force", false, true, 1e-6}},
-      {ColourBy::stress, {"*σ* (MPa)", "largest stress of a fibre", false, true, 1e-3, true, false, 1}},
+      {ColourBy::stress,
+       {"*σ* (MPa)", "largest stress of a fibre", false, true, 1e-3, true, false, 1}},
       {ColourBy::utilisation,
        {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true, false, 1}},
       {ColourBy::joint_angle,
@@ -132,8 +133,7 @@ tl::unexpected<Error> missing_values_error(ColourBy by) {
 ColourScale colour_scale(ColourBy by, std::vector<double> sizes, const Interval& all) {
   const Quantity& quantity = quantity_of(by);
   const double largest = all.any() ? std::max(std::abs(all.low), std::abs(all.high)) : 0;
-  double end =
-      std::max(symmetric_scale(std::move(sizes), quantity.part).high, quantity.least_end);
+  double end = std::max(symmetric_scale(std::move(sizes), quantity.part).high, quantity.least_end);
   // symmetric, so that a colour means one sign in all pictures
   if (!quantity.size && largest < quantity.least_end) end = quantity.least_end;
   ColourScale scale{quantity.size ? sequential : diverging, quantity.size ? 0 : -end, end,

@@ -189,11 +189,11 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
 /// The error (Fault::bad_input) of a run that has no values of a quantity in any frame.
 tl::unexpected<Error> missing_values_error(ColourBy by);
 
-/// The colour scale of a quantity: sequential for magnitudes and diverging about zero for quantities
-/// with a sign, even if all values have the same sign. Its end is a quantile of `sizes`, the
-/// magnitudes of the cells or nodes, so that a few extreme ones do not make the others pale, and
-/// never so small that round-off is coloured; the largest stress is within the scale. `all`: the
-/// range of the values.
+/// The colour scale of a quantity: sequential for magnitudes and diverging about zero for
+/// quantities with a sign, even if all values have the same sign. Its end is a quantile of `sizes`,
+/// the magnitudes of the cells or nodes, so that a few extreme ones do not make the others pale,
+/// and never so small that round-off is coloured; the largest stress is within the scale. `all`:
+/// the range of the values.
 ColourScale colour_scale(ColourBy by, std::vector<double> sizes, const Interval& all);
 
 /// A colour bar with the symbol and the name of a quantity.
