@@ -106,7 +106,8 @@ void picked_figures(const Panel& panel) {
     const record::Cell& cell = layout.cells[std::size_t(viewer.picked_cell)];
     heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
     ImGui::Text("K□ = %.4f rad", shell.frame.cell_K[viewer.picked_cell]);
-    if (shell.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", shell.deviation[viewer.picked_cell]);
+    if (shell.deviation.size() > 0)
+      ImGui::Text("Δ/ρ = %.2f %%", 100 * shell.deviation[viewer.picked_cell]);
   }
 }
 

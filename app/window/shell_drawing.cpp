@@ -24,7 +24,7 @@ constexpr ColourText colour_texts[] = {
     {"K□ (rad)", "integrated Gauss curvature of each cell"},
     {"|u| (mm)", "how far each point moved since the shell was formed"},
     {"ΔK□ (rad)", "its change since the shell was formed"},
-    {"Δ/ρ", "distance of a cell's joints from the net, over ρ"},
+    {"Δ/ρ (%)", "distance of a cell's joints from the net, over ρ"},
     {"bending (mJ/m)", "bending energy a length of rod"},
     {"axial force (N)", "of the rods; below 0 they are compressed"},
     {"σ (MPa)", "largest stress of a fibre, by axial force and bending"},
@@ -146,7 +146,7 @@ std::string label_of(const ShellView& shell, const Show& show) {
   const ColourBy by = show.colour_by;
   if (by == ColourBy::displacement && show.other) return "from " + show.other->name + " (mm)";
   const bool surface = shell.design && shell.design->inverse.target == preset::Target::surface;
-  if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface";
+  if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface (%)";
   return colour_texts[std::size_t(by)].label;
 }
 render::ColourBar bar_of(const ShellView& shell, const Show& show) {
@@ -167,7 +167,7 @@ const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meani
 
 Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
   if (!shell.any()) return {};
-  if (show.colour_by == ColourBy::deviation) return shell.deviation;
+  if (show.colour_by == ColourBy::deviation) return 100 * shell.deviation;
   if (show.colour_by != ColourBy::displacement)
     return render::coloured_values(show.colour_by, *shell.layout, shell.frame, {*shell.first});
   if (!show.other) return displacement(shell, shell.first->nodes);

@@ -37,7 +37,7 @@ const Quantity& quantity_of(ColourBy by) {
       {ColourBy::K, {"*K*_{□} (rad)", "integrated Gauss curvature", true, false, 0.02}},
       {ColourBy::K_change,
        {"Δ*K*_{□} (rad)", "change of integrated Gauss curvature", true, false, 0.02}},
-      {ColourBy::deviation, {"Δ/*ρ*", "deviation from the net", true, true, 1e-6, true}},
+      {ColourBy::deviation, {"Δ/*ρ* (%)", "deviation from the net", true, true, 1e-4, true}},
       {ColourBy::displacement,
        {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true, false, 1}},
       {ColourBy::energy, {"*e*_{b} (mJ/m)", "bending energy over length", false, true, 1e-6, true}},
@@ -100,7 +100,7 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
     case ColourBy::K_change:
       return change_of_K(from.first, frame);
     case ColourBy::deviation:
-      return record::deviation_of_cells(layout, frame);
+      return 100 * record::deviation_of_cells(layout, frame);
     case ColourBy::displacement:
       return move_over_depth(from, frame);
     case ColourBy::energy:

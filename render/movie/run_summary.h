@@ -180,8 +180,8 @@ struct ColourOrigin {
 };
 
 /// The values of a quantity in a frame, one per cell or node: K□ or its change (rad), deviation
-/// over rho, displacement over depth, bending energy over length (mJ/m), axial force (N), largest
-/// stress (MPa) or its ratio to the strength, angle between rods (degrees). Empty for
+/// over rho (%), displacement over depth, bending energy over length (mJ/m), axial force (N),
+/// largest stress (MPa) or its ratio to the strength, angle between rods (degrees). Empty for
 /// ColourBy::none, and if the frame does not have them.
 Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
                                 const record::Frame& frame, const ColourOrigin& from);
