@@ -9,6 +9,7 @@
 #include "render/canvas/text.h"
 #include "render/gl/laths.h"
 #include "render/movie/frame_overlay.h"
+#include "render/movie/framing.h"
 #include "render/movie/run_summary.h"
 
 namespace gridshell::window {
@@ -298,26 +299,17 @@ void look_from(render::Camera& camera, const render::ViewDirection& view) {
 
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points) {
   if (points.cols() == 0) return;
-  const render::CameraAxes axes = render::camera_axes(camera);
-  Eigen::Matrix3d frame;
-  frame << axes.right, axes.up, axes.forward;
-  const Eigen::Matrix3Xd seen = frame.transpose() * points;
-  const Eigen::Vector3d low = seen.rowwise().minCoeff(), high = seen.rowwise().maxCoeff();
-  camera.target = frame * (0.5 * (low + high));
-  const double half_width = 0.5 * (high.x() - low.x()), half_height = 0.5 * (high.y() - low.y());
-  camera.half_extent_mm =
-      std::max({half_height, half_width * size.height / size.width, least_extent_mm});
-  // corrections for perspective
-  for (int k = 0; k < 3; ++k) {
-    double most = 0;
-    for (const auto& point : points.colwise()) {
-      const Eigen::Vector2d at = render::to_pixel(camera, int(size.width), int(size.height), point);
-      most = std::max(
-          {most, std::abs(2 * at.x() / size.width - 1), std::abs(2 * at.y() / size.height - 1)});
-    }
-    camera.half_extent_mm =
-        std::clamp(1.06 * most * camera.half_extent_mm, least_extent_mm, most_extent_mm);
-  }
+  constexpr double margin = 0.03;  // of the height
+  render::MovieStyle style;
+  style.size = {int(size.width), int(size.height)};
+  style.azimuth_deg = camera.azimuth_deg;
+  style.elevation_deg = camera.elevation_deg;
+  style.turn_deg = 0;
+  style.orthographic = camera.field_of_view_deg == 0;
+  const render::Box panel = render::Box{0, 0, size.width, size.height}.inset(margin * size.height);
+  const render::Camera fitted = render::Framing(points, style, panel).camera(0);
+  camera.target = fitted.target;
+  camera.half_extent_mm = std::clamp(fitted.half_extent_mm, least_extent_mm, most_extent_mm);
 }
 
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
