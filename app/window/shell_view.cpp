@@ -191,13 +191,8 @@ void EditSession::update_deviation() {
 
 /// Deviation of the cells, from the distances of the joints to the target of a design.
 void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
-  const record::Layout& layout = *view_.layout;
-  view_.deviation.resize(Eigen::Index(layout.cells.size()));
-  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
-    double sum_mm = 0;
-    for (const int joint : layout.cells[k].joints) sum_mm += of_joints_mm[joint];
-    view_.deviation[Eigen::Index(k)] = sum_mm / 4 / layout.length_scale_mm;
-  }
+  view_.deviation =
+      record::mean_of_cells(*view_.layout, of_joints_mm) / view_.layout->length_scale_mm;
 }
 
 /// Computes the lowest mode of an unstable state on the coarsest mesh, and interpolates it to the
