@@ -125,16 +125,6 @@ std::string group_text(const std::string& group) {
   return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
 }
 
-record::Trajectory states_alone(const record::Trajectory& run,
-                                const std::vector<std::size_t>& which, render::MovieStyle& style) {
-  style.look.ghost = false;
-  record::Trajectory few;
-  few.layout = run.layout;
-  few.layout.original_boundary = run.layout.actuated_boundary;
-  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
-  return few;
-}
-
 std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
   const RichnessEstimate& all = search.completeness;
@@ -190,7 +180,7 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
     return render::write_plot(fs::path(stem) += suffix, titled, style.print);
   };
   render::MovieStyle stills = style;
-  const record::Trajectory drawn = states_alone(one.trajectory, which, stills);
+  const record::Trajectory drawn = render::states_alone(one.trajectory, which, stills);
   if (which.size() < states.rows.size() && !style.title.empty())
     stills.title += fmt::format(" ({} of {} states)", which.size(), states.rows.size());
   TRY_DO(render::write_stills(drawn, stills, {}, renderer, stem, watch, captions));

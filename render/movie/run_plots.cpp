@@ -224,7 +224,7 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
   return plot;
 }
 
-Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
+Plot latitude_plot(const NamedRun& named) {
   const record::Trajectory& run = *named.run;
   const double rho = run.layout.length_scale_mm;
   Plot plot;
@@ -239,7 +239,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   // larger markers below, so that a computed joint is visible inside the scanned one
   Series measured =
       mark_series("joints, scanned", {0.80f, 0.16f, 0.12f, 1}, Marker::circle, 4.2, true);
-  add_by_latitude(scan, rho, measured);
+  add_by_latitude(named.scanned, rho, measured);
   plot.add(std::move(measured));
   Series shell = mark_series("joints, computed", ink, Marker::circle, 2.6);
   add_by_latitude(joints_of(run), rho, shell);
