@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <string_view>
 
 #include "app/cli/figures.h"
 #include "app/cli/paper_page.h"
 #include "app/cli/pictures.h"
-#include "app/cli/sweep_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/canvas/legend.h"

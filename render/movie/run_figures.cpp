@@ -1,7 +1,6 @@
 #include "render/movie/run_figures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 

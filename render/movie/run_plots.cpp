@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "render/canvas/colour_map.h"
-#include "render/canvas/text.h"
 #include "render/movie/run_figures.h"
 
 namespace gridshell::render {

@@ -1,6 +1,5 @@
 #include "render/movie/stage.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
