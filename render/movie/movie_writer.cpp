@@ -206,8 +206,8 @@ class SideBySideMovie {
   static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
 
   void draw_part(Canvas& canvas, std::size_t k, const Image& part, int index) const {
-    const double row = double(k / std::size_t(columns_)),
-                 column = double(k % std::size_t(columns_));
+    const auto columns = std::size_t(columns_), at_row = k / columns;
+    const double row = double(at_row), column = double(k % columns);
     const Box box{em_ + column * part.width,
                   title() + above() + row * (above() + part.height + below()), double(part.width),
                   double(part.height)};
