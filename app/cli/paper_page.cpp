@@ -267,8 +267,8 @@ class PageMaker {
   Result<Page> literature() {
     constexpr int columns = 3;
     constexpr double width = 57, high = 36, pitch = 51;  // mm
-    const int count = int(records_.size());
-    Page page{178, 7 + pitch * ((count + columns - 1) / columns), {}};
+    const int count = int(records_.size()), rows = (count + columns - 1) / columns;
+    Page page{178, 7 + pitch * rows, {}};
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
       const record::Frame frame = run.trajectory.frames.back();
@@ -290,7 +290,8 @@ class PageMaker {
       TRY(picture, stage.draw_views(renderer_, {frame, 0}));
       render::Panel panel{std::move(*picture), panel_letter(k), ""};
       panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(0));
-      const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
+      const int row = k / columns, column = k % columns;
+      const Box box{2 + column * (width + 1.5), 3 + row * pitch, width, high};
       page.add_panel("", box, std::move(panel));
       const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
       page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(34 / units), units);
