@@ -1,7 +1,6 @@
 // The work behind `chart`: studies of methods, their tables and pictures.
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <map>
 
 #include "app/cli/commands.h"

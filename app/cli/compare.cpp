@@ -3,7 +3,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <map>

@@ -220,26 +220,19 @@ std::string design_text(const DesignResult& found, const FlatStartCheck& from_fl
 /// Distances of the joints from the target over the iterations, per cent of the length scale;
 /// crosses are refused steps.
 render::Plot convergence_plot(const DesignResult& found, const std::string& title) {
-  render::Series largest{"largest"}, mean{"mean"}, refused{"step refused"};
-  largest.colour = render::series_colour(0);
-  mean.colour = render::series_colour(1);
+  render::Series largest = render::line_series("largest", render::series_colour(0)),
+                 mean = render::line_series("mean", render::series_colour(1)),
+                 refused = render::mark_series("step refused", {0.3f, 0.3f, 0.3f, 1},
+                                               render::Marker::cross);
   largest.marker = mean.marker = render::Marker::circle;
-  refused.colour = {0.3f, 0.3f, 0.3f, 1};
-  refused.marker = render::Marker::cross;
-  refused.line_width = 0;
   render::Plot plot;
   const double percent = 100 / found.length_scale_mm;
   double norm = 2;
   for (std::size_t k = 0; k < found.steps.size(); ++k) {
     const DesignStep& step = found.steps[k];
-    largest.x.push_back(step.iteration);
-    largest.y.push_back(percent * step.max_mm);
-    mean.x.push_back(step.iteration);
-    mean.y.push_back(percent * step.mean_mm);
-    if (k > 0 && !step.taken) {
-      refused.x.push_back(step.iteration);
-      refused.y.push_back(percent * step.max_mm);
-    }
+    largest.add(step.iteration, percent * step.max_mm);
+    mean.add(step.iteration, percent * step.mean_mm);
+    if (k > 0 && !step.taken) refused.add(step.iteration, percent * step.max_mm);
     if (step.norm == norm) continue;
     plot.references.push_back({false, step.iteration - 0.5, fmt::format("*p* = {:g}", step.norm)});
     norm = step.norm;
@@ -249,7 +242,7 @@ render::Plot convergence_plot(const DesignResult& found, const std::string& titl
   plot.y.label = "distance of joints (% of *ρ*)";
   plot.y.logarithmic = true;
   plot.series = {largest, mean};
-  if (!refused.x.empty()) plot.series.push_back(refused);
+  plot.add(std::move(refused));
   return plot;
 }
 

@@ -129,19 +129,15 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title, cons
   const bool several = runs.size() > 1;
   const std::string above = runs.front()->preset.figure.title ? title : "";
   if (several) style.title = above;
-  std::vector<render::NetRun> shells;
-  std::vector<render::NamedRun> named;
-  for (const Run* run : runs) {
-    shells.push_back({&run->trajectory, title_among(*run, title)});
-    named.push_back({&run->trajectory, title_among(*run, title)});
-  }
-  render::Plot force = render::force_plot(named);
+  std::vector<render::NamedRun> shells;
+  for (const Run* run : runs) shells.push_back({&run->trajectory, title_among(*run, title)});
+  render::Plot force = render::force_plot(shells);
   force.title = render::plain(style.title);
   TRY_DO(save_panels(render::draw_pushes(shells, style, watch), with_suffix(stem, "_loads.png"),
                      style.print.dpi));
   TRY_DO(render::write_plot(with_suffix(stem, "_force"), force, style.print));
   // a single run has its title above its plot
-  return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? above : "",
+  return render::write_push_bins(with_suffix(stem, "_bins"), shells, several ? above : "",
                                  style.print);
 }
 
@@ -209,13 +205,11 @@ Result<void> draw_net_pictures(const Runs& runs, const fs::path& stem, Watch& wa
   const auto style = style_of(runs.front()->preset, Pictures::stills);
   const record::Trajectory& first = runs.front()->trajectory;
   const bool alone = runs.size() == 1;
-  std::vector<render::NetRun> shells, shades;
-  std::vector<render::NamedRun> named;
+  std::vector<render::NamedRun> shells, shades;
   for (const Run* run : runs) {
     const std::string name = run->label.empty() ? name_of(run->preset) : run->label;
     shells.push_back({&run->trajectory, name, scan_of(run->preset)});
     shades.push_back({&run->trajectory, caption_of(run->trajectory, name, runs.size() > 2)});
-    named.push_back({&run->trajectory, name});
   }
   const auto write = [&](const char* suffix, render::Plot plot) {
     plot.title = render::plain(style.title);
@@ -229,12 +223,12 @@ Result<void> draw_net_pictures(const Runs& runs, const fs::path& stem, Watch& wa
   if (alone && !first.layout.parts.empty())
     TRY_DO(draw_block_pictures(first, style, stem, watch));
   else
-    TRY_DO(
-        render::write_footprints(with_suffix(stem, "_footprint"), named, style.title, style.print));
-  TRY_DO(write("_K", render::curvature_plot(named)));
-  TRY_DO(write("_quantiles", render::quantile_plot(named)));
+    TRY_DO(render::write_footprints(with_suffix(stem, "_footprint"), shells, style.title,
+                                    style.print));
+  TRY_DO(write("_K", render::curvature_plot(shells)));
+  TRY_DO(write("_quantiles", render::quantile_plot(shells)));
   if (!alone || !render::on_sphere(first.layout)) return {};
-  return write("_latitude", render::latitude_plot(named.front(), shells.front().scanned));
+  return write("_latitude", render::latitude_plot(shells.front()));
 }
 
 std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {

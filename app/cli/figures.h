@@ -50,10 +50,6 @@ std::string class_text(record::StateClass kind);
 /// end of the name, is left out.
 std::string group_text(const std::string& group);
 
-/// A trajectory of the states `which` of a run, without the original boundary.
-record::Trajectory states_alone(const record::Trajectory& run,
-                                const std::vector<std::size_t>& which);
-
 /// The atlas: the states of states_to_draw() side by side from one camera with class, group,
 /// energy, why each is drawn and how often it was found (`<stem>.png`, each by itself
 /// `<stem>_1.png` ...); how often each was found against its energy (`<stem>_energies.*`); the

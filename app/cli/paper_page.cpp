@@ -44,7 +44,6 @@ class PageMaker {
                                    ? fmt::format("*z*^{{*}}/*ρ* = {:g}", preset.net.cut_height)
                                    : render::plain(preset.title);
       (push ? pushes_ : shells_).push_back({&one->trajectory, name, scan_of(preset)});
-      (push ? named_pushes_ : named_shells_).push_back({&one->trajectory, name});
     }
   }
 
@@ -137,8 +136,7 @@ class PageMaker {
     if (has_photo()) TRY_DO(add_photo(page, "A", {2, 2, 52, 50}));
     const auto strainer = std::ranges::find(records_, "strainer", &Run::name) - records_.begin();
     const std::size_t caps = std::min(shells_.size(), std::size_t(strainer));
-    const std::vector<render::NamedRun> of_caps(named_shells_.begin(),
-                                                named_shells_.begin() + long(caps));
+    const std::vector<render::NamedRun> of_caps(shells_.begin(), shells_.begin() + long(caps));
     page.add("B", "", {2, 2 + top, 84, 46}, [of_caps](Canvas& canvas, const Box& box) {
       render::draw_footprints(canvas, box, of_caps);
     });
@@ -147,17 +145,16 @@ class PageMaker {
     // E has the same keys and more room for them
     if (caps < shells_.size()) over->keys.clear();
     page.add_figure("C1", over_box, std::move(*over));
-    page.add_plot("C2", {132, 2 + top, 44, 46},
-                  render::latitude_plot(named_shells_.front(), shells_.front().scanned));
+    page.add_plot("C2", {132, 2 + top, 44, 46}, render::latitude_plot(shells_.front()));
     const int columns = std::min(6, int(caps));
-    TRY(deviations, render::draw_deviations({shells_.begin(), shells_.begin() + long(caps)},
-                                            filling(below, columns, true), watch_, columns));
+    TRY(deviations,
+        render::draw_deviations(of_caps, filling(below, columns, true), watch_, columns));
     page.add_figure("D", below, std::move(*deviations));
     if (caps < shells_.size()) {
       const Box left{2, 84 + top, 70, 43}, right{74, 84 + top, 102, 43};
       TRY(shell, render::draw_over_nets({shells_[caps]}, filling(left, 1), watch_));
       page.add_figure("E", left, std::move(*shell));
-      page.add("F", "", right, [one = named_shells_[caps]](Canvas& canvas, const Box& box) {
+      page.add("F", "", right, [one = shells_[caps]](Canvas& canvas, const Box& box) {
         constexpr double room = 6;
         render::draw_footprints(canvas, {box.x + room, box.y, box.width - room, box.height}, {one});
       });
@@ -198,7 +195,7 @@ class PageMaker {
     TRY(over,
         render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))), watch_));
     page.add_figure("A", above, std::move(*over));
-    page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
+    page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(shells_));
     // narrower, since the colour bar has words, which would be too small if the figure were scaled
     render::MovieStyle push_style =
         filling({2, 94, 160, 50}, std::min(3, int(pushes_.size())), true);
@@ -209,19 +206,18 @@ class PageMaker {
     }
     TRY(pushes, render::draw_pushes(pushes_, push_style, watch_));
     page.add_figure("C", middle, std::move(*pushes));
-    for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
-      const record::Trajectory& run = *named_pushes_[k].run;
+    for (std::size_t k = 0; k < pushes_.size(); ++k) {
+      const record::Trajectory& run = *pushes_[k].run;
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
                             run.frames.back(), {-0.01, 0.07}, page_font);
-      plot.title = named_pushes_[k].name + "\n" + plot.title;
+      plot.title = pushes_[k].name + "\n" + plot.title;
       if (k == 0) page.add_legend({5, 145.5, 171, 5}, plot);
       plot.legend = render::LegendPosition::none;
-      const double width = 174.0 / double(named_pushes_.size());
+      const double width = 174.0 / double(pushes_.size());
       page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 151, width - 1, 38}, plot);
     }
-    if (!named_pushes_.empty())
-      page.add_note({2, 189, 174, 4}, total_text(*named_pushes_.front().run));
+    if (!pushes_.empty()) page.add_note({2, 189, 174, 4}, total_text(*pushes_.front().run));
     note_shell(page, 193.5);
     return page;
   }
@@ -243,7 +239,7 @@ class PageMaker {
     };
     for (int k = 0; k < count; ++k)
       page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 49},
-               [=, runs = named_shells_](Canvas& canvas, const Box& box) {
+               [=, runs = shells_](Canvas& canvas, const Box& box) {
                  // one scale for all, that of the largest
                  double scale = INFINITY;
                  for (const render::NamedRun& one : runs)
@@ -260,7 +256,7 @@ class PageMaker {
     over->keys = {{over->keys.front().colour, "equilibrium, over the Chebyshev nets of A"}};
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
     TRY_DO(add_experiment(page));
-    page.add_plot("F", {116, 58, 60, 48}, render::curvature_plot(named_shells_));
+    page.add_plot("F", {116, 58, 60, 48}, render::curvature_plot(shells_));
     page.add_note({2, page.height_mm - 1, 174, 4},
                   "F: cells of C. D and E of the paper are a photograph and measured joints.");
     page.height_mm += 4;
@@ -271,8 +267,8 @@ class PageMaker {
   Result<Page> literature() {
     constexpr int columns = 3;
     constexpr double width = 57, high = 36, pitch = 51;  // mm
-    const int count = int(records_.size());
-    Page page{178, 7 + pitch * ((count + columns - 1) / columns), {}};
+    const int count = int(records_.size()), rows = (count + columns - 1) / columns;
+    Page page{178, 7 + pitch * rows, {}};
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
       const record::Frame frame = run.trajectory.frames.back();
@@ -294,7 +290,8 @@ class PageMaker {
       TRY(picture, stage.draw_views(renderer_, {frame, 0}));
       render::Panel panel{std::move(*picture), panel_letter(k), ""};
       panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(0));
-      const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
+      const int row = k / columns, column = k % columns;
+      const Box box{2 + column * (width + 1.5), 3 + row * pitch, width, high};
       page.add_panel("", box, std::move(panel));
       const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
       page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(34 / units), units);
@@ -332,7 +329,7 @@ class PageMaker {
       alone.layout.parts.clear();
       alone.layout.net_nodes.resize(3, 0);
       alone.frames = {measured->run->frames.back()};
-      TRY(shell, render::draw_over_nets({{&alone, measured->caption, measured->scanned}},
+      TRY(shell, render::draw_over_nets({{&alone, measured->name, measured->scanned}},
                                         filling(right, 1), watch_));
       page.add_figure("E", right, std::move(*shell));
     }
@@ -345,8 +342,7 @@ class PageMaker {
   Watch& watch_;
   render::MovieStyle style_;
   const Run* push_ = nullptr;  // the first run with a push
-  std::vector<render::NetRun> shells_, pushes_;
-  std::vector<render::NamedRun> named_shells_, named_pushes_;
+  std::vector<render::NamedRun> shells_, pushes_;
 };
 
 }  // namespace

@@ -53,14 +53,6 @@ std::string error_with_unit(double value, const char* unit) {
   return (value < 1 ? digit : fmt::format("{:.0f}", std::stod(digit))) + " " + unit;
 }
 
-/// The components of a force; those below 1e-9 `reference` are round-off and written as 0.
-std::vector<std::string> numbers(const Eigen::Vector3d& force, double reference) {
-  std::vector<std::string> texts;
-  for (const double one : force)
-    texts.push_back(number(std::abs(one) < 1e-9 * reference ? 0 : one));
-  return texts;
-}
-
 /// A force with as many decimals as its error permits.
 std::string force_text(double force, double error) {
   if (!std::isfinite(error) || error <= 0) return number(force);
@@ -109,10 +101,8 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
   const record::Summary& summary = run.summary;
   const auto& boundary = plan.actuated_boundary;
   // a cantilever has no boundary
-  const Eigen::Vector3d span =
-      boundary.cols() > 0
-          ? Eigen::Vector3d(boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff())
-          : Eigen::Vector3d::Zero();
+  Eigen::Vector3d span = Eigen::Vector3d::Zero();
+  if (boundary.cols() > 0) span = boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
        {"section and material", plan.section_text() + ", " + material_text(run.preset.rod)},
@@ -223,20 +213,21 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
     return {};
   }
   TRY(found, study::load_study(shell, options.imperfections, watch));
+  const auto factor = [](double value, double error) {
+    return std::isfinite(value) ? record::with_error(value, error, "") : "–";
+  };
   std::vector<TableRow> rows;
   for (const record::LoadRow& row : found->cases) {
     const bool lost = std::isfinite(row.critical_factor);
     const Eigen::Vector3d sum(row.load_x_N, row.load_y_N, row.load_z_N);
-    const auto parts = numbers(sum, sum.norm());
+    // components that are round-off are written as 0
+    const auto part = [&](double one) {
+      return number(std::abs(one) < 1e-9 * sum.norm() ? 0 : one);
+    };
     rows.push_back(
-        {{row.load_case, parts[0], parts[1], parts[2],
-          lost ? record::with_error(row.critical_factor, row.error, "") : "–",
-          std::isfinite(row.linear_factor)
-              ? record::with_error(row.linear_factor, row.linear_error, "")
-              : "–",
-          std::isfinite(row.strength_factor)
-              ? record::with_error(row.strength_factor, row.strength_error, "")
-              : "–",
+        {{row.load_case, part(sum.x()), part(sum.y()), part(sum.z()),
+          factor(row.critical_factor, row.error), factor(row.linear_factor, row.linear_error),
+          factor(row.strength_factor, row.strength_error),
           !lost ? "stability is not lost on the path followed"
                 : (row.event == record::BranchEvent::turn ? "limit point" : "bifurcation") +
                       (row.imperfections > 0
@@ -360,13 +351,6 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   return {};
 }
 
-/// Expected time of forming the shell again, s, by which the studies of loads and modes are scaled;
-/// 1 if it is not known.
-double study_seconds(const preset::Preset& preset) {
-  const auto plan = plan_of(preset);
-  return plan && std::isfinite(plan->expected_seconds) ? plan->expected_seconds : 1;
-}
-
 Result<int> make_report(ReportOptions options) {
   if (options.to.empty()) options.to = next_to(options.input, "_report.pdf");
   if (options.to.extension() != ".pdf")
@@ -376,7 +360,10 @@ Result<int> make_report(ReportOptions options) {
   TRY(maker, PictureMaker::create("auto", runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
-    const double seconds = study_seconds(run.preset);
+    // the shell is formed again, and the studies take about four times as long
+    const auto plan = plan_of(run.preset);
+    const double seconds =
+        plan && std::isfinite(plan->expected_seconds) ? plan->expected_seconds : 1;
     phases.insert(phases.end(),
                   {drawing("drawing", 2), {"following loads, finding modes", 5 * seconds}});
   }

@@ -324,9 +324,9 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
 Result<void> draw(const ComparedScan& scan, const Candidate& one, const fs::path& folder,
                   Watch& watch) {
   TRY_DO(render::use_font(one.run->preset.style.font));
-  const auto style = style_of(one.run->preset, Pictures::stills);
+  auto style = style_of(one.run->preset, Pictures::stills);
   const RegisteredScan& laid = *scan.of_best().scan;
-  const record::Trajectory shown = states_alone(one.run->trajectory, {one.frame});
+  const record::Trajectory shown = render::states_alone(one.run->trajectory, {one.frame}, style);
   const std::string caption =
       fmt::format("{}{} of {} joints, {:.2f} mm rms, {:.2f} mm at most",
                   scan.of_best().shown ? "" : "not this state: ", laid.found, laid.joints.cols(),

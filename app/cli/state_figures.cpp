@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <string_view>
 
 #include "app/cli/figures.h"
 #include "app/cli/paper_page.h"
 #include "app/cli/pictures.h"
-#include "app/cli/sweep_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/canvas/legend.h"
@@ -54,27 +52,25 @@ std::string completeness_text(const record::StateTables& states) {
       states.search.at_rest, all.estimate, all.low, all.high);
 }
 
-/// A series for each class, the last first, with `value` over the elastic energy.
+/// A series for each class, with `value` over the elastic energy, and before them their keys.
 template <class Value>
 std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
-  std::vector<render::Series> all;
+  std::vector<render::Series> keys, all;
   for (const auto& [kind, word] : gridshell::words_of<StateClass>()) {
     const render::ClassLook look = render::look_of(kind);
-    render::Series series = render::mark_series(class_text(kind), look.colour, look.marker);
-    series.hollow = kind == StateClass::other;
-    for (const StateRow& row : rows) {
-      if (row.kind != kind) continue;
-      series.add(row.energy_mJ(), value(row));
-    }
-    if (!series.x.empty()) all.push_back(std::move(series));
+    render::Series key = render::mark_series(class_text(kind), look.colour, look.marker);
+    key.hollow = kind == StateClass::other;
+    render::Series series = key;
+    series.name.clear();
+    for (const StateRow& row : rows)
+      if (row.kind == kind) series.add(row.energy_mJ(), value(row));
+    if (series.x.empty()) continue;
+    keys.push_back(std::move(key));
+    all.push_back(std::move(series));
   }
   // the many others are drawn first, below the few of the paper; the legend has the paper's order
-  std::vector<render::Series> keys = all;
-  for (render::Series& key : keys) key.x.clear(), key.y.clear();
-  std::ranges::reverse(all);
-  for (render::Series& series : all) series.name.clear();
-  std::ranges::move(keys, std::back_inserter(all));
-  return all;
+  std::ranges::reverse_copy(all, std::back_inserter(keys));
+  return keys;
 }
 
 render::Plot energies_plot(const record::StateTables& states) {
@@ -125,15 +121,6 @@ std::string group_text(const std::string& group) {
   const std::string name = group.substr(0, group.find('_'));
   if (name.size() < 2 || name == "flat") return name;
   return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
-}
-
-record::Trajectory states_alone(const record::Trajectory& run,
-                                const std::vector<std::size_t>& which) {
-  record::Trajectory few;
-  few.layout = run.layout;
-  few.layout.original_boundary = run.layout.actuated_boundary;
-  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
-  return few;
 }
 
 std::string found_text(const record::StateTables& states) {
@@ -191,12 +178,10 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
     return render::write_plot(fs::path(stem) += suffix, titled, style.print);
   };
   render::MovieStyle stills = style;
-  // the states are no motion, from which the first one would remain as a ghost
-  stills.look.ghost = false;
+  const record::Trajectory drawn = render::states_alone(one.trajectory, which, stills);
   if (which.size() < states.rows.size() && !style.title.empty())
     stills.title += fmt::format(" ({} of {} states)", which.size(), states.rows.size());
-  TRY_DO(render::write_stills(states_alone(one.trajectory, which), stills, {}, renderer, stem,
-                              watch, captions));
+  TRY_DO(render::write_stills(drawn, stills, {}, renderer, stem, watch, captions));
   TRY_DO(plot_at("_energies", energies_plot(states)));
   TRY_DO(plot_at("_lives", lives_plot(states)));
   if (!states.transitions.empty())

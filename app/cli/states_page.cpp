@@ -124,10 +124,8 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
   const double width = above.width / (3 + wider), dpi = one.preset.figure.dpi,
                height = above.height - caption / points_per_mm;
   style.captions = style.inset = style.legends = false;
-  // the states are no motion, from which the first one would remain as a ghost
-  style.look.ghost = false;
   style.turn_deg = 0;
-  const record::Trajectory run = states_alone(one.trajectory, which);
+  const record::Trajectory run = render::states_alone(one.trajectory, which, style);
   const render::Stage stage(run, at_size(style, width, height, dpi));
   const Eigen::Matrix3Xd measured = scan_of(one.preset);
   const int over = state_measured(measured, run);
@@ -144,7 +142,8 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     watch.report(double(k + 1) / double(which.size() + 1));
   }
   if (dome) {
-    const record::Trajectory alone = states_alone(dome->record->trajectory, {dome->at});
+    const record::Trajectory alone =
+        render::states_alone(dome->record->trajectory, {dome->at}, style);
     render::MovieStyle wide = at_size(style, wider * width, height, dpi);
     const auto staged = [&] {
       return render::Stage(alone.layout, render::summarise_run(alone), wide, stage.colour_bar());

@@ -1,7 +1,6 @@
 #include "app/python/shell.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/core/try.h"

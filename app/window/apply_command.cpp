@@ -1,6 +1,5 @@
 // Does edits as steps of a preset, and stores the steps, so that a preset can repeat them.
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>

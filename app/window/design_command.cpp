@@ -144,8 +144,6 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   s.refined = false;
   s.symmetry.clear();
   s.soft_mode.resize(3, 0);
-  s.axial_N = record::axial_force_of_nodes_N(*s.layout, s.frame);
-  s.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*s.layout, s.frame);
   update_deviation(now.distances_mm);
   s.design = std::make_shared<const DesignProgress>(design);
   ++s.equilibria;

@@ -147,7 +147,7 @@ class EditSession {
   void update_layout();
   void update_normals();
   void update_symmetry();
-  void update_rods();
+  void update_deviation();
   void update_lowest_mode();
   void update_deviation(const Eigen::VectorXd& of_joints_mm);
 

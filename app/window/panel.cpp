@@ -4,10 +4,8 @@
 #include <fontconfig/fontconfig.h>
 #include <imgui_internal.h>
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <sstream>
-#include <string_view>
 
 namespace gridshell::window {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "app/window/panel.h"
 #include "engine/gridshell.h"
+#include "render/movie/run_summary.h"
 
 namespace gridshell::window {
 namespace {
@@ -27,13 +28,18 @@ std::string rod_name(const record::Layout& layout, int rod) {
 }
 
 /// Writes the stress at a node, "stress 120 MPa, 0.48 of the strength", if it is known.
-void stress_text(const ShellView& shell, int node) {
-  const auto of = [&](bool utilisation) {
-    const Eigen::VectorXd all =
-        record::stress_of_nodes_MPa(*shell.layout, shell.frame, utilisation);
-    return node < all.size() ? all[node] : record::unknown;
-  };
-  const double stress = of(false), used = of(true);
+/// The value of a quantity at a node; unknown if the state does not have it.
+double value_at(const ShellView& shell, preset::ColourBy by, int node) {
+  const Eigen::VectorXd all =
+      render::coloured_values(by, *shell.layout, shell.frame, {*shell.first});
+  return node < all.size() ? all[node] : record::unknown;
+}
+
+void bending_and_stress(const ShellView& shell, int node) {
+  using preset::ColourBy;
+  ImGui::Text("bending %.3g mJ/m", value_at(shell, ColourBy::energy, node));
+  const double stress = value_at(shell, ColourBy::stress, node),
+               used = value_at(shell, ColourBy::utilisation, node);
   if (!std::isfinite(stress)) return;
   std::string text = fmt::format("stress {:.3g} MPa", stress);
   if (std::isfinite(used)) text += fmt::format(", {:.2g} of the strength", used);
@@ -56,8 +62,7 @@ void picked_rod(const Panel& panel, const PointOnRod& at) {
   ImGui::Text("axial force %.3g N", force[k]);
   const double curvature = record::curvature_per_mm(layout, shell.frame, std::size_t(at.rod))[k];
   ImGui::Text("curvature %.4f 1/mm", curvature);
-  ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[nodes[k]]);
-  stress_text(shell, nodes[k]);
+  bending_and_stress(shell, nodes[k]);
 }
 
 /// A slider for the depth to which the joint is pushed inwards.
@@ -91,9 +96,9 @@ void picked_figures(const Panel& panel) {
     heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
     push_depth(panel, viewer.picked_joint);
     ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
-    ImGui::Text("axial force %.3g N", shell.axial_N[viewer.picked_joint]);
-    ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[viewer.picked_joint]);
-    stress_text(shell, viewer.picked_joint);
+    ImGui::Text("axial force %.3g N",
+                value_at(shell, preset::ColourBy::axial_force, viewer.picked_joint));
+    bending_and_stress(shell, viewer.picked_joint);
   }
   if (viewer.picked_rod.rod >= 0 && viewer.picked_rod.rod < int(layout.rods.size()))
     picked_rod(panel, viewer.picked_rod);
@@ -101,7 +106,8 @@ void picked_figures(const Panel& panel) {
     const record::Cell& cell = layout.cells[std::size_t(viewer.picked_cell)];
     heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
     ImGui::Text("K□ = %.4f rad", shell.frame.cell_K[viewer.picked_cell]);
-    if (shell.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", shell.deviation[viewer.picked_cell]);
+    if (shell.deviation.size() > 0)
+      ImGui::Text("Δ/ρ = %.2f %%", 100 * shell.deviation[viewer.picked_cell]);
   }
 }
 

@@ -7,37 +7,30 @@
 #include <numbers>
 
 #include "render/canvas/text.h"
+#include "render/gl/laths.h"
 #include "render/movie/frame_overlay.h"
+#include "render/movie/framing.h"
 #include "render/movie/run_summary.h"
 
 namespace gridshell::window {
 namespace {
 
-constexpr double paling = 0.2;  // start of the colour map of rods: thin pale lines cannot be seen
-
 struct ColourText {
   const char* label;
   const char* meaning;
-  const char *marked, *words;  // label and text of the colour bar of pictures, as in movies
 };
 /// The texts, in the order of ColourBy.
 constexpr ColourText colour_texts[] = {
-    {"nothing", "rods and joints alone", "", ""},
-    {"K□ (rad)", "integrated Gauss curvature of each cell", "*K*_{□} (rad)",
-     "integrated Gauss curvature"},
-    {"|u| (mm)", "how far each point moved since the shell was formed", "|*u*| (mm)",
-     "displacement"},
-    {"ΔK□ (rad)", "its change since the shell was formed", "Δ*K*_{□} (rad)",
-     "change of integrated Gauss curvature"},
-    {"Δ/ρ", "distance of a cell's joints from the net, over ρ", "Δ/*ρ*", "distance from the net"},
-    {"bending (mJ/m)", "bending energy a length of rod", "*e*_{b} (mJ/m)",
-     "bending energy over length"},
-    {"axial force (N)", "of the rods; below 0 they are compressed", "*N* (N)", "axial force"},
-    {"σ (MPa)", "largest stress of a fibre, by axial force and bending", "*σ* (MPa)",
-     "largest stress of a fibre"},
-    {"σ / strength", "that over the rods' strength", "*σ* / strength", "utilisation of the rods"},
-    {"joint angle (°)", "between the rods at joints with laws or springs", "*α* (°)",
-     "angle between the rods at joints"},
+    {"nothing", "rods and joints alone"},
+    {"K□ (rad)", "integrated Gauss curvature of each cell"},
+    {"|u| (mm)", "how far each point moved since the shell was formed"},
+    {"ΔK□ (rad)", "its change since the shell was formed"},
+    {"Δ/ρ (%)", "distance of a cell's joints from the net, over ρ"},
+    {"bending (mJ/m)", "bending energy a length of rod"},
+    {"axial force (N)", "of the rods; below 0 they are compressed"},
+    {"σ (MPa)", "largest stress of a fibre, by axial force and bending"},
+    {"σ / strength", "that over the rods' strength"},
+    {"joint angle (°)", "between the rods at joints with laws or springs"},
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
@@ -154,15 +147,16 @@ std::string label_of(const ShellView& shell, const Show& show) {
   const ColourBy by = show.colour_by;
   if (by == ColourBy::displacement && show.other) return "from " + show.other->name + " (mm)";
   const bool surface = shell.design && shell.design->inverse.target == preset::Target::surface;
-  if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface";
+  if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface (%)";
   return colour_texts[std::size_t(by)].label;
 }
 render::ColourBar bar_of(const ShellView& shell, const Show& show) {
-  const auto& text = colour_texts[std::size_t(show.colour_by)];
+  render::ColourBar bar = render::named_bar(show.colour_by, show.scale);
   const std::string label = label_of(shell, show);
-  const bool own = label == text.label;  // another label explains itself
-  render::ColourBar bar{own ? text.marked : render::plain(label), show.scale};
-  if (own) bar.words = text.words;
+  if (label != colour_texts[std::size_t(show.colour_by)].label)
+    bar.label = render::plain(label), bar.words = "";  // another label explains itself
+  else if (show.colour_by == ColourBy::displacement)
+    bar.label = "|*u*| (mm)", bar.words = "displacement";
   bar.ends = true;
   const Eigen::VectorXd values = values_of(shell, show);
   const double slack = 1e-9 * (show.scale.high - show.scale.low);
@@ -174,58 +168,19 @@ const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meani
 
 Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
   if (!shell.any()) return {};
-  switch (show.colour_by) {
-    case ColourBy::none:
-      return {};
-    case ColourBy::K:
-      return shell.frame.cell_K;
-    case ColourBy::K_change:
-      if (shell.first->cell_K.size() != shell.frame.cell_K.size()) return {};
-      return shell.frame.cell_K - shell.first->cell_K;
-    case ColourBy::deviation:
-      return shell.deviation;
-    case ColourBy::energy:
-      return shell.bending_mJ_m;
-    case ColourBy::axial_force:
-      return shell.axial_N;
-    case ColourBy::stress:
-    case ColourBy::utilisation:
-      return record::stress_of_nodes_MPa(*shell.layout, shell.frame,
-                                         show.colour_by == ColourBy::utilisation);
-    case ColourBy::joint_angle:
-      return record::joint_angle_of_nodes_deg(*shell.layout, shell.frame);
-    case ColourBy::displacement:
-      if (!show.other) return displacement(shell, shell.first->nodes);
-      if (!same_joints(shell.layout->joints, show.other->seen->layout->joints)) return {};
-      return displacement(shell, show.other->seen->frame.nodes);
-  }
-  return {};
+  if (show.colour_by == ColourBy::deviation) return 100 * shell.deviation;
+  if (show.colour_by != ColourBy::displacement)
+    return render::coloured_values(show.colour_by, *shell.layout, shell.frame, {*shell.first});
+  if (!show.other) return displacement(shell, shell.first->nodes);
+  if (!same_joints(shell.layout->joints, show.other->seen->layout->joints)) return {};
+  return displacement(shell, show.other->seen->frame.nodes);
 }
 
 render::ColourScale scale_of(const ShellView& shell, const Show& show) {
-  const ColourBy by = show.colour_by;
-  const Eigen::VectorXd all = values_of(shell, show);
-  const double start = render::of_cells(by) ? 0 : paling;
-  render::ColourScale scale =
-      render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
-  if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
-    // so that round-off has no colour
-    const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
-    const bool changed = all.size() > 0 && all.cwiseAbs().maxCoeff() >= least;
-    if (!changed || scale.high < least) scale.low = -least, scale.high = least;
-    scale.start = start;
-    return scale;
-  }
-  if (by == ColourBy::joint_angle && all.size() > 0) {
-    double low = INFINITY, high = -INFINITY;
-    for (const double angle : all) low = std::fmin(low, angle), high = std::fmax(high, angle);
-    return {render::sequential, low, std::max(high, low + 0.01), start};
-  }
-  const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
-  // of these, the largest value is in the range
-  const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
-  const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
-  return {render::sequential, 0, end, start};
+  const Eigen::VectorXd values = values_of(shell, show);
+  render::Interval all;
+  for (const double value : values) all.take(value);
+  return render::colour_scale(show.colour_by, {values.begin(), values.end()}, all);
 }
 
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
@@ -281,12 +236,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   drawing.rod_diameter_mm = std::max(layout.rod_diameter_mm, thin_mm);
   drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
-  if (!layout.laths_mm.empty()) {
-    drawing.laths_mm = layout.laths_mm;
-    drawing.rod_colour = render::lath_ink;
-    // the bolts of laths are narrower than the laths
-    if (show.joints) drawing.joint_diameter_mm = 0.5 * std::ranges::max(layout.laths_mm);
-  }
+  render::put_laths(layout.laths_mm, drawing);
   put_colours(shell, show, drawing);
   // not drawn if the supports do not move, or if the line through them is none of the preset
   if (show.rings && shell.preset.style.rings != preset::Visibility::off &&
@@ -349,26 +299,17 @@ void look_from(render::Camera& camera, const render::ViewDirection& view) {
 
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points) {
   if (points.cols() == 0) return;
-  const render::CameraAxes axes = render::camera_axes(camera);
-  Eigen::Matrix3d frame;
-  frame << axes.right, axes.up, axes.forward;
-  const Eigen::Matrix3Xd seen = frame.transpose() * points;
-  const Eigen::Vector3d low = seen.rowwise().minCoeff(), high = seen.rowwise().maxCoeff();
-  camera.target = frame * (0.5 * (low + high));
-  const double half_width = 0.5 * (high.x() - low.x()), half_height = 0.5 * (high.y() - low.y());
-  camera.half_extent_mm =
-      std::max({half_height, half_width * size.height / size.width, least_extent_mm});
-  // corrections for perspective
-  for (int k = 0; k < 3; ++k) {
-    double most = 0;
-    for (const auto& point : points.colwise()) {
-      const Eigen::Vector2d at = render::to_pixel(camera, int(size.width), int(size.height), point);
-      most = std::max(
-          {most, std::abs(2 * at.x() / size.width - 1), std::abs(2 * at.y() / size.height - 1)});
-    }
-    camera.half_extent_mm =
-        std::clamp(1.06 * most * camera.half_extent_mm, least_extent_mm, most_extent_mm);
-  }
+  constexpr double margin = 0.03;  // of the height
+  render::MovieStyle style;
+  style.size = {int(size.width), int(size.height)};
+  style.azimuth_deg = camera.azimuth_deg;
+  style.elevation_deg = camera.elevation_deg;
+  style.turn_deg = 0;
+  style.orthographic = camera.field_of_view_deg == 0;
+  const render::Box panel = render::Box{0, 0, size.width, size.height}.inset(margin * size.height);
+  const render::Camera fitted = render::Framing(points, style, panel).camera(0);
+  camera.target = fitted.target;
+  camera.half_extent_mm = std::clamp(fitted.half_extent_mm, least_extent_mm, most_extent_mm);
 }
 
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,

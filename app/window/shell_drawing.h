@@ -33,7 +33,8 @@ void zoom(render::Camera& camera, const PictureSize& size, double steps, double 
 /// Turns the camera to a standard view.
 void look_from(render::Camera& camera, const render::ViewDirection& view);
 
-/// Moves the camera, without turning it, so that all points (3 x n, mm) are in the picture.
+/// Moves the camera, without turning it, so that all points (3 x n, mm) are in the picture, with
+/// equal margins on opposite sides.
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points);
 
 /// The displacement of a point at `position`, mm, in the plane facing the camera, for a drag in

@@ -144,17 +144,15 @@ void boundary(const Panel& panel) {
   const double from = shell.preset.original_radius_mm();
   const double now = shell.frame.boundary_radius_mm;
   const double mm_per_progress = shell.progress > 0 ? (now - from) / shell.progress : -1;
+  const double low = 0.6 * from, high = from + shell.least_progress * mm_per_progress;
   ImGui::TextUnformatted("Radius of the boundary, Rₐ");
-  slider(panel, "R_a", float(now), float(0.6 * from),
-         float(from + shell.least_progress * mm_per_progress), "%.2f mm",
-         fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm", 0.6 * from,
-                     from + shell.least_progress * mm_per_progress) +
+  slider(panel, "R_a", float(now), float(low), float(high), "%.2f mm",
+         fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm", low, high) +
              text_of_marks(shell),
          [&](float to) {
            viewer.playing = false,
            viewer.post(Move{(four_digits(to) - from) / mm_per_progress}, true);
          });
-  const double low = 0.6 * from, high = from + shell.least_progress * mm_per_progress;
   mark_slider(panel, "R_a", [&](double at) { return (shell.radius_at(at) - low) / (high - low); });
 }
 

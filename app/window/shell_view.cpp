@@ -36,14 +36,6 @@ std::string words_of_group(const std::string& group) {
   return found == words.end() ? "symmetry " + group : found->second;
 }
 
-/// Computes the values that colours show: axial force and bending at the nodes, and the deviation
-/// of the cells from the net.
-void put_values(ShellView& shell) {
-  shell.axial_N = record::axial_force_of_nodes_N(*shell.layout, shell.frame);
-  shell.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*shell.layout, shell.frame);
-  shell.deviation = record::deviation_of_cells(*shell.layout, shell.frame);
-}
-
 }  // namespace
 
 PlotPoint plot_point_of(const ShellView& shell) {
@@ -76,7 +68,7 @@ std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame fr
   shell->layout = std::make_shared<const record::Layout>(std::move(layout));
   shell->frame = std::move(frame);
   shell->first = std::make_shared<const record::Frame>(std::move(first));
-  put_values(*shell);
+  shell->deviation = record::deviation_of_cells(*shell->layout, shell->frame);
   return shell;
 }
 
@@ -130,7 +122,7 @@ void EditSession::update_view() {
     s.constrained.push_back(joint);
   }
   update_symmetry();
-  update_rods();
+  update_deviation();
   update_lowest_mode();
   if (!s.first) s.first = now_.first = std::make_shared<const record::Frame>(s.frame);
   ++s.equilibria;
@@ -189,9 +181,9 @@ void EditSession::update_normals() {
   }
 }
 
-/// Computes the values that colours show; the deviation of a designed shell is from its target.
-void EditSession::update_rods() {
-  put_values(view_);
+/// Computes the deviation of the cells; that of a designed shell is from its target.
+void EditSession::update_deviation() {
+  view_.deviation = record::deviation_of_cells(*view_.layout, view_.frame);
   if (!now_.design || !now_.target) return;
   const Eigen::Index joints = Eigen::Index(view_.layout->joints.size());
   update_deviation(now_.target->distances(view_.frame.nodes.leftCols(joints)).size());
@@ -199,13 +191,8 @@ void EditSession::update_rods() {
 
 /// Deviation of the cells, from the distances of the joints to the target of a design.
 void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
-  const record::Layout& layout = *view_.layout;
-  view_.deviation.resize(Eigen::Index(layout.cells.size()));
-  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
-    double sum_mm = 0;
-    for (const int joint : layout.cells[k].joints) sum_mm += of_joints_mm[joint];
-    view_.deviation[Eigen::Index(k)] = sum_mm / 4 / layout.length_scale_mm;
-  }
+  view_.deviation =
+      record::mean_of_cells(*view_.layout, of_joints_mm) / view_.layout->length_scale_mm;
 }
 
 /// Computes the lowest mode of an unstable state on the mesh next to the finest, and interpolates

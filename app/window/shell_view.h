@@ -119,9 +119,7 @@ struct ShellView : ViewedState {
   std::vector<ConstrainedJoint> constrained;
   double radius_end_mm = 0;  ///< of a circular boundary at the end of its motion
   std::vector<DraggedEdge> edges_dragged;
-  Eigen::Matrix3Xd normals;      ///< one per joint: t_u x t_v
-  Eigen::VectorXd axial_N;       ///< one per node, the mean of its edges
-  Eigen::VectorXd bending_mJ_m;  ///< one per node: energy over length, J/m / 1000
+  Eigen::Matrix3Xd normals;  ///< one per joint: t_u x t_v
   /// one per cell, mean over its joints: distance over rho from the net, for a designed shell from
   /// the target of the design; empty without a net
   Eigen::VectorXd deviation;

@@ -272,29 +272,25 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPose& pose,
   MarchedGrid grid(surface, pose, *lines, least_angle, chord_mm, most, net_reach);
   const MarchedGrid fine(surface, pose, grid);
   double narrowest = M_PI_2;
-  for (int j = -most; j <= most; ++j)
-    for (int i = -most; i <= most; ++i) {
-      if (!grid.present(i, j)) continue;
-      MarchedGrid::Node& node = grid.node(i, j);
-      if (grid.known(i - 1, j) && grid.known(i, j - 1) && grid.joined(i, j, -1, 0) &&
-          grid.joined(i, j, 0, -1) && fine.known(2 * i, 2 * j))
-        narrowest = std::min(narrowest,
-                             angle_between(fine.at(2 * i, 2 * j).p - fine.at(2 * i - 1, 2 * j).p,
-                                           fine.at(2 * i, 2 * j).p - fine.at(2 * i, 2 * j - 1).p));
-      if (fine.known(2 * i, 2 * j)) continue;
-      if (node.known) node.stop = RodStop::surface;
-      node.known = node.to_u = node.to_v = node.on_u = node.on_v = false;
-      node.past_rim = 0;
-      if (i > -most) grid.node(i - 1, j).to_u = grid.node(i - 1, j).on_u = false;
-      if (j > -most) grid.node(i, j - 1).to_v = grid.node(i, j - 1).on_v = false;
-    }
+  grid.each_present([&](int i, int j) {
+    MarchedGrid::Node& node = grid.node(i, j);
+    const auto& at = fine.at(2 * i, 2 * j);
+    if (grid.known(i - 1, j) && grid.known(i, j - 1) && grid.joined(i, j, -1, 0) &&
+        grid.joined(i, j, 0, -1) && at.known)
+      narrowest = std::min(narrowest, angle_between(at.p - fine.at(2 * i - 1, 2 * j).p,
+                                                    at.p - fine.at(2 * i, 2 * j - 1).p));
+    if (at.known) return;
+    if (node.known) node.stop = RodStop::surface;
+    node.known = node.to_u = node.to_v = node.on_u = node.on_v = false;
+    node.past_rim = 0;
+    if (i > -most) grid.node(i - 1, j).to_u = grid.node(i - 1, j).on_u = false;
+    if (j > -most) grid.node(i, j - 1).to_v = grid.node(i, j - 1).on_v = false;
+  });
   bool any = false;
-  for (int j = -most; j <= most; ++j)
-    for (int i = -most; i <= most; ++i) {
-      if (!grid.present(i, j)) continue;
-      any = any || (grid.known(i, j) && (i != 0 || j != 0));
-      grid.node(i, j).p = (4 * fine.at(2 * i, 2 * j).p - grid.at(i, j).p) / 3;
-    }
+  grid.each_present([&](int i, int j) {
+    any = any || (grid.known(i, j) && (i != 0 || j != 0));
+    grid.node(i, j).p = (4 * fine.at(2 * i, 2 * j).p - grid.at(i, j).p) / 3;
+  });
   if (!any)
     return invalid("no rod leaves the apex ({:.4g}, {:.4g}, {:.4g}) mm: {}", pose.apex.x(),
                    pose.apex.y(), pose.apex.z(), text_of(grid.at(1, 0).stop));

@@ -69,12 +69,18 @@ class MarchedGrid {
   bool linked(int i, int j, int step_u, int step_v) const {
     return step_u != 0 ? at(std::min(i, i + step_u), j).on_u : at(i, std::min(j, j + step_v)).on_v;
   }
-  /// Calls visit(i, j) for all known nodes, row by row.
+  /// Calls visit(i, j) for all nodes that are computed, row by row, or only for known ones.
   template <class Visit>
-  void each_known(const Visit& visit) const {
+  void each_present(const Visit& visit) const {
     for (int j = -most_; j <= most_; ++j)
       for (int i = -most_; i <= most_; ++i)
-        if (known(i, j)) visit(i, j);
+        if (present(i, j)) visit(i, j);
+  }
+  template <class Visit>
+  void each_known(const Visit& visit) const {
+    each_present([&](int i, int j) {
+      if (known(i, j)) visit(i, j);
+    });
   }
   Node& node(int i, int j) { return nodes_[index(i, j)]; }
 

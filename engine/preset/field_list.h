@@ -121,21 +121,21 @@ class FieldList : AnyFieldList {
   }
 
   FieldList& named(std::string key) { return rename(std::move(key)), *this; }
-  FieldList& unit(std::string unit) { return all_.back().unit = std::move(unit), *this; }
-  FieldList& label(std::string label) { return all_.back().label = std::move(label), *this; }
+  FieldList& unit(std::string_view unit) { return all_.back().unit = unit, *this; }
+  FieldList& label(std::string_view label) { return all_.back().label = label, *this; }
   /// Names the entries of a list of numbers, such as "[i, j]": the list is empty or has that many.
-  FieldList& shape(std::string shape) { return all_.back().shape = std::move(shape), *this; }
+  FieldList& shape(std::string_view shape) { return all_.back().shape = shape, *this; }
   FieldList& colour() { return all_.back().colour = true, *this; }
-  FieldList& points(std::vector<std::string> coordinates,
-                    std::vector<std::vector<std::string>> words = {}) {
-    all_.back().coordinates = std::move(coordinates);
-    all_.back().coordinate_words = std::move(words);
+  FieldList& points(const std::vector<std::string>& coordinates,
+                    const std::vector<std::vector<std::string>>& words = {}) {
+    all_.back().coordinates = coordinates;
+    all_.back().coordinate_words = words;
     return *this;
   }
 
   /// Restricts all following rules to presets for which the condition is true.
-  FieldList& where(std::function<bool(const Preset&)> applies) {
-    return where_ = std::move(applies), *this;
+  FieldList& where(const std::function<bool(const Preset&)>& applies) {
+    return where_ = applies, *this;
   }
   /// Adds a rule whose function returns the error, or an empty text if there is none.
   template <class Say>

@@ -11,6 +11,7 @@
 
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
+#include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 #include "engine/formats/outline_file.h"
 #include "engine/formats/point_file.h"
@@ -261,8 +262,14 @@ class Reader {
   std::string read(const toml::node& value, SurfaceData& surface) {
     if (const auto* name = value.as_string()) {
       const double unit = millimetres(preset_.net.file_unit);
-      const auto read = [&](std::string_view bytes, const std::string& file) {
-        return read_surface(bytes, file, unit > 0 ? unit : 1);
+      const auto read = [&](std::string_view bytes,
+                            const std::string& file) -> Result<SurfaceData> {
+        SurfaceData& known = (*context_.surfaces)[{file, unit}];
+        if (known.empty()) {
+          TRY(found, read_surface(bytes, file, unit > 0 ? unit : 1));
+          known = std::move(*found);
+        }
+        return known;
       };
       auto wrong = read_file_of(name->get(), read, largest_mesh_file, surface);
       if (!wrong.empty() || surface.empty()) return wrong;

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/preset/preset.h"
@@ -48,6 +50,9 @@ class LocatedErrors {
 struct FileContext {
   std::filesystem::path folder;
   const std::map<std::string, std::string>* built_in = nullptr;  ///< texts by name
+  /// Surfaces that were read, by file and unit (mm), for the cases of a preset.
+  using Surfaces = std::map<std::pair<std::string, double>, SurfaceData>;
+  std::shared_ptr<Surfaces> surfaces = std::make_shared<Surfaces>();
 };
 
 /// A file that a key names. It is read after all other keys, since some of them (unit, spacing)

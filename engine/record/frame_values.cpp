@@ -175,17 +175,33 @@ Eigen::VectorXd deviation_of_nodes(const Layout& layout, const Frame& frame) {
          layout.length_scale_mm;
 }
 
-Eigen::VectorXd deviation_of_cells(const Layout& layout, const Frame& frame) {
-  if (!has_net(layout)) return {};
-  const Eigen::VectorXd off = deviation_of_nodes(layout, frame);
+Eigen::VectorXd mean_of_cells(const Layout& layout, const Eigen::VectorXd& of_nodes) {
   Eigen::VectorXd of_cells(Eigen::Index(layout.cells.size()));
   for (std::size_t k = 0; k < layout.cells.size(); ++k) {
     double sum = 0;
     for (const int joint : layout.cells[k].joints)
-      sum += off[layout.joints[std::size_t(joint)].node];
+      sum += of_nodes[layout.joints[std::size_t(joint)].node];
     of_cells[Eigen::Index(k)] = sum / 4;
   }
   return of_cells;
+}
+
+Eigen::VectorXd deviation_of_cells(const Layout& layout, const Frame& frame) {
+  if (!has_net(layout)) return {};
+  return mean_of_cells(layout, deviation_of_nodes(layout, frame));
+}
+
+std::vector<std::array<int, 2>> braces_of(const Layout& layout, const Frame& frame) {
+  std::vector<std::array<int, 2>> braces;
+  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
+    if (std::isnan(frame.brace_force_N[k])) continue;
+    const auto& joints = layout.cells[std::size_t(k / 2)].joints;
+    const auto node = [&](Eigen::Index corner) {
+      return layout.joints[std::size_t(joints[std::size_t(corner)])].node;
+    };
+    braces.push_back({node(k % 2), node(k % 2 + 2)});
+  }
+  return braces;
 }
 
 }  // namespace gridshell::record

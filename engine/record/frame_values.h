@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,9 @@ Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& fra
 /// without such a joint. Empty if no joint has an angle.
 Eigen::VectorXd joint_angle_of_nodes_deg(const Layout& layout, const Frame& frame);
 
+/// The nodes at both ends of every brace in this frame.
+std::vector<std::array<int, 2>> braces_of(const Layout& layout, const Frame& frame);
+
 // Deviation of a frame from the Chebyshev net that it was designed on.
 
 /// Whether the shell was designed on a net.
@@ -58,6 +62,9 @@ inline bool has_net(const Layout& layout) { return layout.net_nodes.cols() > 0; 
 /// Distance of each node from its position on the net over rho, the layout's length scale; empty
 /// without a net.
 Eigen::VectorXd deviation_of_nodes(const Layout& layout, const Frame& frame);
+
+/// The mean of the values of the four joints of each cell; values are by node.
+Eigen::VectorXd mean_of_cells(const Layout& layout, const Eigen::VectorXd& of_nodes);
 
 /// Deviation of each cell: the mean of its four joints.
 Eigen::VectorXd deviation_of_cells(const Layout& layout, const Frame& frame);

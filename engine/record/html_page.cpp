@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/json.h"
+#include "engine/record/frame_values.h"
 #include "engine/record/shape_export.h"
 
 namespace gridshell::exports {
@@ -120,20 +121,6 @@ Json boundary_json(const Eigen::Matrix3Xd& polyline) {
   return points;
 }
 
-/// [node, node] of every brace in this frame.
-Json braces_json(const record::Layout& layout, const record::Frame& frame) {
-  Json braces = Json::array();
-  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
-    if (std::isnan(frame.brace_force_N[k])) continue;
-    const auto& joints = layout.cells[std::size_t(k / 2)].joints;
-    const auto node = [&](Eigen::Index corner) {
-      return layout.joints[std::size_t(joints[std::size_t(corner)])].node;
-    };
-    braces.push_back({node(k % 2), node(k % 2 + 2)});
-  }
-  return braces;
-}
-
 /// [node, F_x, F_y, F_z] of every support on which a force acts, N.
 Json forces_json(const record::Layout& layout, const Eigen::Matrix3Xd& forces_N) {
   Json forces = Json::array();
@@ -178,7 +165,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
   const auto nodes = std::size_t(end.nodes.cols());
   // bytes of a node, a K, a brace, a load and a support, and of the figures
-  const std::size_t braces = braces_json(run.layout, end).size(),
+  const std::size_t braces = braces_of(run.layout, end).size(),
                     loads = end.loads_N.size() > 0 ? run.layout.supports.size() : 0,
                     a_frame = 8 * nodes + 8 * run.layout.cells.size() + 16 * braces + 48 * loads +
                               8 * run.layout.supports.size() + 400;
@@ -210,7 +197,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
                               {"actuation", frame.actuation},
                               {"nodes", positions(frame, extent)},
                               {"K", std::move(K)},
-                              {"braces", braces_json(run.layout, frame)},
+                              {"braces", braces_of(run.layout, frame)},
                               {"loads", forces_json(run.layout, frame.loads_N)},
                               {"held", supports_json(run.layout, frame)},
                               {"figures", figures(frame)}});

@@ -79,11 +79,9 @@ void Simulation::Walk::confirm(Event& event) {
   event.confirmed = false;
   if (!companion_) return;
   constexpr double found_to = 5e-5;  // accuracy in the path parameter
-  PathOptions options;
-  options.spacing_mm = scene_.footprint.spacing;
   // the last step that was too long may be nearly twice the smallest
-  options.smallest_step = found_to / 2;
-  PathFollower path(shell_.system(companion), shell_.motion(companion), options);
+  PathFollower path(shell_.system(companion), shell_.motion(companion),
+                    {.spacing_mm = scene_.footprint.spacing, .smallest_step = found_to / 2});
   if (path.start(companion_->time, companion_->state, watch_).end != Outcome::reached) return;
   const double past = event.t + std::copysign(shell_.plan().events_apart, to_ - event.t);
   if (path.advance(past, watch_).end == Outcome::reached) return;
@@ -129,15 +127,13 @@ bool Simulation::Walk::switch_branch_to(double there, const PathPoint& last, Eve
 /// regained it. Between the two the shell is on another branch.
 bool Simulation::Walk::skipped_a_branch(const PathPoint& last) {
   constexpr double same_state = 1e-3;  // in units of d
-  PathOptions options;
-  options.spacing_mm = scene_.footprint.spacing;
-  options.allow_unstable = true;
-  PathFollower path(shell_.system(), shell_.motion(), options);
+  PathFollower path(shell_.system(), shell_.motion(),
+                    {.spacing_mm = scene_.footprint.spacing, .allow_unstable = true});
   const State& found = shell_.state().levels.back();
   if (path.start(last.t, last.state, watch_).end != Outcome::reached) return false;
   if (path.advance(now(), watch_).end != Outcome::reached) return false;
   return max_column_norm((path.point().state.x - found.x).leftCols(shell_.model().nodes)) <
-         same_state * options.spacing_mm;
+         same_state * scene_.footprint.spacing;
 }
 
 /// Searches for the equilibrium after the end of a branch, first next to the event, then at larger

@@ -158,11 +158,9 @@ bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& las
   // fraction of the interval of t; a quarter of the distance is expected to remain there
   constexpr double fraction = 1.0 / 16;
   const double near = last.t + fraction * (there - last.t);
-  PathOptions options;
-  options.spacing_mm = scene.footprint.spacing;
   // where two modes lose stability, a branch may be unstable next to the other
-  options.allow_unstable = true;
-  PathFollower back(shell.system(), shell.motion(), options);
+  PathFollower back(shell.system(), shell.motion(),
+                    {.spacing_mm = scene.footprint.spacing, .allow_unstable = true});
   if (back.start(there, rest, watch).end != Outcome::reached) return false;
   // a second mode may end the path early, near the bifurcation: its last state is compared
   back.advance(near, watch);

@@ -7,6 +7,14 @@
 
 namespace gridshell::render {
 
+void put_laths(std::vector<double> laths_mm, Drawing& drawing) {
+  constexpr Colour wood{0.66f, 0.55f, 0.42f, 1};
+  if (laths_mm.empty()) return;
+  drawing.rod_colour = wood;
+  if (drawing.joint_diameter_mm > 0) drawing.joint_diameter_mm = 0.5 * std::ranges::max(laths_mm);
+  drawing.laths_mm = std::move(laths_mm);
+}
+
 std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
   const auto count = std::size_t(drawing.nodes.cols());
   std::vector<Eigen::Vector3f> tangent(count, Eigen::Vector3f::Zero()), normal = tangent;

@@ -12,6 +12,11 @@
 
 namespace gridshell::render {
 
+/// Draws rods as laths with these widths and thicknesses (Drawing::laths_mm), in the colour of
+/// wood, and joints, if they are drawn, as bolts, which are narrower. Without laths it changes
+/// nothing.
+void put_laths(std::vector<double> laths_mm, Drawing& drawing);
+
 /// For every node the cross product of the unit tangents of its rods: along the shell's normal at a
 /// joint, near zero at nodes of one rod.
 std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing);

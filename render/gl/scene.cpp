@@ -1,7 +1,5 @@
 #include "render/gl/scene.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

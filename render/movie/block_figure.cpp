@@ -44,7 +44,7 @@ struct MovedBlock {
 
 /// The blocks of a single run, separated from their positions in the assemblage; of several runs
 /// one block of each kind, in a row.
-std::vector<MovedBlock> moved_blocks(const std::vector<NetRun>& runs) {
+std::vector<MovedBlock> moved_blocks(const std::vector<NamedRun>& runs) {
   std::vector<MovedBlock> blocks;
   if (runs.size() == 1) {
     const std::vector<record::Part>& parts = runs.front().run->layout.parts;
@@ -55,7 +55,7 @@ std::vector<MovedBlock> moved_blocks(const std::vector<NetRun>& runs) {
   constexpr double gap = 0.65;  // of the blocks' mean width
   std::set<std::string> seen;
   double widths = 0, end = 0;
-  for (const NetRun& one : runs)
+  for (const NamedRun& one : runs)
     for (const record::Part& part : one.run->layout.parts)
       if (seen.insert(block_kind(part.name)).second) {
         blocks.push_back({&part});
@@ -157,8 +157,8 @@ std::string block_kind(const std::string& name) {
   return end == name.npos || name[end] != ' ' ? name : name.substr(0, end);
 }
 
-BlockKinds::BlockKinds(const std::vector<NetRun>& runs) {
-  for (const NetRun& one : runs)
+BlockKinds::BlockKinds(const std::vector<NamedRun>& runs) {
+  for (const NamedRun& one : runs)
     for (const record::Part& part : one.run->layout.parts)
       if (const std::string kind = block_kind(part.name);
           std::ranges::find(kinds_, kind) == kinds_.end())
@@ -186,7 +186,7 @@ std::vector<ColourKey> BlockKinds::keys() const {
   return keys;
 }
 
-Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+Result<PanelFigure> draw_blocks(const std::vector<NamedRun>& runs, const MovieStyle& movie_style,
                                 Watch& watch) {
   const MovieStyle style = uncoloured(movie_style);
   const BlockKinds kinds(runs);

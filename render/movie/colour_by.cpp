@@ -28,6 +28,7 @@ struct Quantity {
   double least_end = 0;     // smallest end of the scale, so that round-off is not coloured
   bool size = false;        // whether it is never negative
   bool from_least = false;  // whether the scale begins at the smallest value, not at zero
+  double part = 0.9;        // fraction of the cells or nodes that are within the scale
 };
 
 const Quantity& quantity_of(ColourBy by) {
@@ -36,21 +37,21 @@ const Quantity& quantity_of(ColourBy by) {
       {ColourBy::K, {"*K*_{□} (rad)", "integrated Gauss curvature", true, false, 0.02}},
       {ColourBy::K_change,
        {"Δ*K*_{□} (rad)", "change of integrated Gauss curvature", true, false, 0.02}},
-      {ColourBy::deviation, {"Δ/*ρ*", "deviation from the net", true, true, 1e-6, true}},
+      {ColourBy::deviation, {"Δ/*ρ* (%)", "deviation from the net", true, true, 1e-4, true}},
       {ColourBy::displacement,
-       {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true}},
+       {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true, false, 1}},
       {ColourBy::energy, {"*e*_{b} (mJ/m)", "bending energy over length", false, true, 1e-6, true}},
       {ColourBy::axial_force, {"*N* (N)", "axial force", false, true, 1e-6}},
-      {ColourBy::stress, {"*σ* (MPa)", "largest stress of a fibre", false, true, 1e-3, true}},
+      {ColourBy::stress,
+       {"*σ* (MPa)", "largest stress of a fibre", false, true, 1e-3, true, false, 1}},
       {ColourBy::utilisation,
-       {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true}},
+       {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true, false, 1}},
       {ColourBy::joint_angle,
        {"*α* (°)", "angle between the rods at joints", false, true, 0.01, true, true}}};
   return quantities.at(by);
 }
 
-constexpr double quantile = 0.9;  // fraction of the cells or nodes that are within the scale
-constexpr double paling = 0.2;    // ColourScale::start for rods, which are thin lines on white
+constexpr double paling = 0.2;  // ColourScale::start for rods, which are thin lines on white
 
 using Surveys = std::vector<const RunSummary*>;
 
@@ -64,31 +65,20 @@ Interval all_of(const Surveys& runs, ColourBy by) {
   return all;
 }
 
-// a colour bar from zero to the quantile of the magnitudes; for quantities with a sign symmetric,
-// so that a colour means one sign in all pictures
+// a colour bar of the largest magnitudes of each cell or node
 ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   std::vector<double> most;
   for (const RunSummary* run : runs)
     most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
   const Interval all = all_of(runs, by);
-  // the largest stress must be within the scale
-  const bool whole = by == ColourBy::stress || by == ColourBy::utilisation;
-  ColourBar bar{.label = {}, .scale = symmetric_scale(most, whole ? 1 : quantile)};
-  const Quantity& quantity = quantity_of(by);
-  const double end = std::max(bar.scale.high, quantity.least_end);
-  bar.scale = {quantity.size ? sequential : diverging, quantity.size ? 0 : -end, end,
-               of_cells(by) ? 0 : paling};
-  if (quantity.from_least && all.any()) {
-    bar.scale.low = all.low;
-    bar.scale.high = std::max(all.high, all.low + quantity.least_end);
-  }
-  bar.below_scale = all.any() && !quantity.size && all.low < bar.scale.low;
+  ColourBar bar = named_bar(by, colour_scale(by, std::move(most), all));
+  bar.below_scale = all.any() && !quantity_of(by).size && all.low < bar.scale.low;
   bar.above_scale = all.any() && all.high > bar.scale.high;
   return bar;
 }
 
 ColourBar displacement_bar(const Surveys& runs) {
-  ColourBar bar{.label = {}, .scale = {sequential, 0, 1, paling}};
+  ColourBar bar = named_bar(ColourBy::displacement, {sequential, 0, 1, paling});
   for (const RunSummary* run : runs)
     bar.above_scale |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
   return bar;
@@ -110,7 +100,7 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
     case ColourBy::K_change:
       return change_of_K(from.first, frame);
     case ColourBy::deviation:
-      return record::deviation_of_cells(layout, frame);
+      return 100 * record::deviation_of_cells(layout, frame);
     case ColourBy::displacement:
       return move_over_depth(from, frame);
     case ColourBy::energy:
@@ -140,6 +130,25 @@ tl::unexpected<Error> missing_values_error(ColourBy by) {
                                   : "strength");
 }
 
+ColourScale colour_scale(ColourBy by, std::vector<double> sizes, const Interval& all) {
+  const Quantity& quantity = quantity_of(by);
+  const double largest = all.any() ? std::max(std::abs(all.low), std::abs(all.high)) : 0;
+  double end = std::max(symmetric_scale(std::move(sizes), quantity.part).high, quantity.least_end);
+  // symmetric, so that a colour means one sign in all pictures
+  if (!quantity.size && largest < quantity.least_end) end = quantity.least_end;
+  ColourScale scale{quantity.size ? sequential : diverging, quantity.size ? 0 : -end, end,
+                    quantity.cells ? 0 : paling};
+  if (quantity.from_least && all.any()) {
+    scale.low = all.low;
+    scale.high = std::max(all.high, all.low + quantity.least_end);
+  }
+  return scale;
+}
+
+ColourBar named_bar(ColourBy by, const ColourScale& scale) {
+  return {.label = quantity_of(by).label, .scale = scale, .words = quantity_of(by).words};
+}
+
 std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& style) {
   const ColourBy by = style.colour_by;
   const bool any_cell = std::ranges::any_of(
@@ -147,8 +156,6 @@ std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& st
   if (runs.empty() || by == ColourBy::none) return std::nullopt;
   if (of_cells(by) && (!any_cell || !style.look.cells)) return std::nullopt;
   ColourBar bar = by == ColourBy::displacement ? displacement_bar(runs) : bar_of_sizes(runs, by);
-  bar.label = quantity_of(by).label;
-  bar.words = quantity_of(by).words;
   if (style.look.map) bar.scale.map = style.look.map;
   if (style.look.range.empty()) return bar;
   bar.scale.low = style.look.range[0];

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "render/canvas/text.h"
 #include "render/movie/paper.h"
 
 namespace gridshell::render {

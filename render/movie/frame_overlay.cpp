@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "engine/record/contacts.h"
+#include "engine/record/frame_values.h"
 #include "render/canvas/text.h"
 
 namespace gridshell::render {
@@ -266,14 +267,7 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
 void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                 Drawing& drawing) {
   GhostRods braces{frame.nodes, {}, std::max(0.6 * layout.rod_diameter_mm, thin_mm), brace_ink};
-  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
-    if (std::isnan(frame.brace_force_N[k])) continue;
-    const auto& joints = layout.cells[std::size_t(k / 2)].joints;
-    const auto node = [&](Eigen::Index corner) {
-      return layout.joints[std::size_t(joints[std::size_t(corner)])].node;
-    };
-    braces.rods.push_back({node(k % 2), node(k % 2 + 2)});
-  }
+  for (const auto& [from, to] : record::braces_of(layout, frame)) braces.rods.push_back({from, to});
   if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
 }
 

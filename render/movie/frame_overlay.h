@@ -18,7 +18,7 @@ namespace gridshell::render {
 
 inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1},
     contact_ink{0.80f, 0.05f, 0.60f, 1}, brace_ink{0.30f, 0.36f, 0.50f, 1},
-    ghost_ink{0.58f, 0.6f, 0.64f, 0.6f}, lath_ink{0.66f, 0.55f, 0.42f, 1};
+    ghost_ink{0.58f, 0.6f, 0.64f, 0.6f};
 
 /// The boxes of a frame's parts, in pixels. They never overlap, at any size; a part that does not
 /// fit has an empty box and is not shown.

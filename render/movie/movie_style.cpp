@@ -21,6 +21,15 @@ Appearance paper_appearance() {
   return look;
 }
 
+std::vector<double> laths_of(const record::Layout& layout, const Appearance& look) {
+  if (look.rod_mm != 0) return {};
+  std::vector<double> laths = layout.laths_mm;
+  if (laths.empty() && look.lath_width_mm > 0)
+    for (std::size_t r = 0; r < layout.rods.size(); ++r)
+      laths.insert(laths.end(), {look.lath_width_mm, look.lath_thickness_mm});
+  return laths;
+}
+
 namespace {
 
 void choose(Colour& colour, const std::string& request) {

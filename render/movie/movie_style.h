@@ -37,6 +37,10 @@ struct Appearance {
 /// The theme of the paper's figures: black rods on white.
 Appearance paper_appearance();
 
+/// Width and thickness of every rod, mm: the layout's or, if it has none, those of the appearance;
+/// empty if rods are drawn round.
+std::vector<double> laths_of(const record::Layout& layout, const Appearance& look);
+
 /// The keys of [movie] (for stills with the quality of [figure]), and other keys that pictures
 /// need. A standard view is given by azimuth and elevation.
 struct MovieStyle : preset::Movie {

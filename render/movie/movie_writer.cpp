@@ -35,42 +35,27 @@ Worker::~Worker() {
 void Worker::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return job_ || over_; });
-    if (!job_) return;
+    changed_.wait(lock, [this] { return job_.valid() || over_; });
+    if (!job_.valid()) return;
+    auto job = std::move(job_);
     lock.unlock();
-    Result<void> ended;
-    std::exception_ptr thrown;
-    try {
-      ended = job_();
-    } catch (...) {
-      thrown = std::current_exception();
-    }
+    job();
     lock.lock();
-    ended_ = std::move(ended);
-    thrown_ = thrown;
-    job_ = nullptr;
-    changed_.notify_all();
   }
 }
 
-void Worker::begin(Job job) {
-  if (!thread_.joinable()) {
-    ended_ = job();
-    return;
-  }
+void Worker::begin(const Job& job) {
+  std::packaged_task<Result<void>()> task(job);
+  running_ = task.get_future();
+  if (!thread_.joinable()) return task();
   {
     const std::lock_guard lock(mutex_);
-    job_ = std::move(job);
+    job_ = std::move(task);
   }
   changed_.notify_all();
 }
 
-Result<void> Worker::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return !job_; });
-  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
-  return std::exchange(ended_, Result<void>{});
-}
+Result<void> Worker::wait() { return running_.valid() ? running_.get() : Result<void>{}; }
 
 std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index); }
 
@@ -221,8 +206,8 @@ class SideBySideMovie {
   static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
 
   void draw_part(Canvas& canvas, std::size_t k, const Image& part, int index) const {
-    const double row = double(k / std::size_t(columns_)),
-                 column = double(k % std::size_t(columns_));
+    const auto columns = std::size_t(columns_), at_row = k / columns;
+    const double row = double(at_row), column = double(k % columns);
     const Box box{em_ + column * part.width,
                   title() + above() + row * (above() + part.height + below()), double(part.width),
                   double(part.height)};

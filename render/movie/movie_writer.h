@@ -2,9 +2,9 @@
 #pragma once
 
 #include <condition_variable>
-#include <exception>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -37,7 +37,7 @@ class Worker {
   ~Worker();
 
   /// Begins a job; wait() must have been called for the one before.
-  void begin(Job job);
+  void begin(const Job& job);
   /// Waits for the running job and returns its result, success if there is none. An exception of
   /// the job is thrown by wait().
   Result<void> wait();
@@ -47,10 +47,9 @@ class Worker {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  Job job_;                    // null: none is running
-  Result<void> ended_;         // result of the last job
-  std::exception_ptr thrown_;  // exception of the last job
-  bool over_ = false;          // no more jobs follow
+  std::packaged_task<Result<void>()> job_;  // the next one; not valid: none
+  std::future<Result<void>> running_;       // the last job that was begun
+  bool over_ = false;                       // no more jobs follow
   std::thread thread_;
 };
 

@@ -1,7 +1,6 @@
 #include "render/movie/run_figures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -23,15 +22,6 @@ std::string with_contacts(const std::string& caption, const record::Frame& frame
   return caption + (caption.empty() ? "" : "\n") + "violet: " + contacts;
 }
 
-/// The last frame alone, with the actuated boundary only.
-record::Trajectory final_state(const record::Trajectory& run) {
-  record::Trajectory last;
-  last.layout = run.layout;
-  last.layout.original_boundary = run.layout.actuated_boundary;
-  last.frames = {run.frames.back()};
-  return last;
-}
-
 /// Adds the axis x, of length L from the middle of a shell to its boundary, in front of the shell.
 void add_half_span(const record::Layout& layout, Drawing& drawing) {
   const Eigen::Vector3d low = layout.actuated_boundary.rowwise().minCoeff(),
@@ -42,7 +32,7 @@ void add_half_span(const record::Layout& layout, Drawing& drawing) {
   drawing.labels.push_back({to + Eigen::Vector3d(2 * off, 0, 0), "*x* = *L*"});
 }
 
-using DrawingEdit = std::function<void(const NetRun&, Drawing&)>;
+using DrawingEdit = std::function<void(const NamedRun&, Drawing&)>;
 
 /// Sets the scale of all panels to that of the largest shell, and its scale bar.
 void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, PanelFigure& figure) {
@@ -53,14 +43,14 @@ void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, Pa
 }
 
 /// A figure with one panel per run, whose drawing is changed by `edit`.
-Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+Result<PanelFigure> panels_of(const std::vector<NamedRun>& runs, const MovieStyle& movie_style,
                               Watch& watch, int columns, const DrawingEdit& edit) {
-  const MovieStyle style = uncoloured(movie_style);
+  MovieStyle style = uncoloured(movie_style);
   PanelFigure figure = empty_figure(style, std::min(columns, int(runs.size())));
   std::vector<record::Trajectory> states;
-  for (const NetRun& one : runs) {
+  for (const NamedRun& one : runs) {
     TRY_DO(check_showable(*one.run, style));
-    states.push_back(final_state(*one.run));
+    states.push_back(states_alone(*one.run, {one.run->frames.size() - 1}, style));
   }
   std::vector<Stage> stages;
   for (const record::Trajectory& state : states) stages.emplace_back(state, style);
@@ -72,16 +62,16 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     // lines as thick on paper as those of the largest shell
     drawing.rod_diameter_mm *= wider;
     edit(runs[k], drawing);
-    TRY_DO(add_panel(
-        figure, stages[k], std::move(drawing),
-        {runs.size() > 1, with_contacts(runs[k].caption, states[k].frames.front()), wider}, nullptr,
-        watch));
+    TRY_DO(
+        add_panel(figure, stages[k], std::move(drawing),
+                  {runs.size() > 1, with_contacts(runs[k].name, states[k].frames.front()), wider},
+                  nullptr, watch));
   }
   return figure;
 }
 
 /// The colour keys of draw_over_nets().
-std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
+std::vector<ColourKey> over_net_keys(const std::vector<NamedRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
   const record::Layout& layout = runs.front().run->layout;
   if (layout.parts.empty() && layout.net_nodes.cols() > 0)
@@ -90,7 +80,7 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
   }
-  if (std::ranges::any_of(runs, [](const NetRun& one) { return one.scanned.size(); }))
+  if (std::ranges::any_of(runs, [](const NamedRun& one) { return one.scanned.size(); }))
     keys.push_back(scan_key());
   return keys;
 }
@@ -150,6 +140,16 @@ Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
   return {};
 }
 
+record::Trajectory states_alone(const record::Trajectory& run,
+                                const std::vector<std::size_t>& which, MovieStyle& style) {
+  style.look.ghost = false;
+  record::Trajectory few;
+  few.layout = run.layout;
+  few.layout.original_boundary = run.layout.actuated_boundary;
+  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
+  return few;
+}
+
 Eigen::VectorXd last_deviation(const record::Trajectory& run) {
   return record::deviation_of_nodes(run.layout, run.frames.back());
 }
@@ -169,9 +169,9 @@ void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing) {
 
 ColourKey scan_key() { return {scan_ink, "joints measured"}; }
 
-Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+Result<PanelFigure> draw_over_nets(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                    Watch& watch, int columns) {
-  const auto dress = [kinds = BlockKinds(runs)](const NetRun& one, Drawing& drawing) {
+  const auto dress = [kinds = BlockKinds(runs)](const NamedRun& one, Drawing& drawing) {
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
     // the net is wider and below, so that it is visible on both sides of rods that are on it
@@ -196,15 +196,15 @@ DeviationUnit deviation_unit(const record::Layout& layout) {
   return {100, "Δ/*ρ* (%)"};
 }
 
-Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+Result<PanelFigure> draw_deviations(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                     Watch& watch, int columns) {
   double largest = 0;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
-  for (const NetRun& one : runs)
+  for (const NamedRun& one : runs)
     largest = std::max(largest, unit.factor * last_deviation(*one.run).maxCoeff());
   // a round end has the last label of the colour bar
   const ColourScale scale{sequential, 0, nice_ceiling(std::max(largest, 1e-9)), 0.2};
-  const auto dress = [&](const NetRun& one, Drawing& drawing) {
+  const auto dress = [&](const NamedRun& one, Drawing& drawing) {
     const Eigen::VectorXd deviation = last_deviation(*one.run);
     for (double fraction : deviation) drawing.node_colours.push_back(scale(unit.factor * fraction));
     drawing.rod_diameter_mm *= 1.8;
@@ -216,12 +216,12 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   return figure;
 }
 
-Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+Result<PanelFigure> draw_pushes(const std::vector<NamedRun>& runs, const MovieStyle& movie_style,
                                 Watch& watch) {
   const MovieStyle style = panel_style(movie_style);
   std::vector<RunSummary> surveys;
   std::vector<const RunSummary*> all;
-  for (const NetRun& one : runs) surveys.push_back(summarise_run(*one.run));
+  for (const NamedRun& one : runs) surveys.push_back(summarise_run(*one.run));
   for (const RunSummary& survey : surveys) all.push_back(&survey);
   const auto bar = colour_bar_of(all, style);
   PanelFigure figure = empty_figure(style, std::min(3, int(runs.size())));
@@ -237,12 +237,12 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const record::Frame& last = runs[k].run->frames.back();
     Drawing drawing = stages[k].drawing(last);
-    if (!stages[k].ghost_caption(last).empty()) figure.keys = {{ghost_ink, "unloaded"}};
+    if (const auto ghost = stages[k].ghost_key(last)) figure.keys = {*ghost};
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     // wider rods, since their colours are the result
     drawing.rod_diameter_mm *= 1.5 * wider;
     const std::string depth = state_captions(last).front(),
-                      caption = several ? runs[k].caption + "\n" + depth : depth;
+                      caption = several ? runs[k].name + "\n" + depth : depth;
     TRY_DO(add_panel(figure, stages[k], std::move(drawing),
                      {several, with_contacts(caption, last), wider}, nullptr, watch));
     watch.report(double(k + 1) / double(runs.size()));

@@ -38,13 +38,10 @@ struct PanelText {
 Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
                        const PanelText& text, Renderer* renderer, const Watch& watch);
 
-/// A run shown by its last frame, over its net if its layout has one.
-struct NetRun {
-  const record::Trajectory* run = nullptr;
-  std::string caption;            ///< text with markup
-  Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's coordinates
-  bool half_span = false;         ///< with the axis x and the half-span L next to the shell
-};
+/// A trajectory of the states `which` of a run, without the original boundary. They are no motion,
+/// so that `style` shows no ghost of the first one.
+record::Trajectory states_alone(const record::Trajectory& run,
+                                const std::vector<std::size_t>& which, MovieStyle& style);
 
 /// Distance of every node of the last frame from its position on the net, over the length scale
 /// (rho). The layout must have a net.
@@ -69,12 +66,12 @@ ColourKey scan_key();
 
 /// A figure of shells (dark) over their nets (wider, orange) with measured joints (red), at most
 /// `columns` side by side, as lines. Errors: those of check_showable(); Fault::cancelled.
-Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+Result<PanelFigure> draw_over_nets(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                    Watch& watch, int columns = 3);
 
 /// A figure of shells coloured by their deviation, with one colour bar, as lines. Errors: those of
 /// draw_over_nets(). All runs must have a net.
-Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+Result<PanelFigure> draw_deviations(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                     Watch& watch, int columns = 3);
 
 // Building blocks, separate and joined [Baek 2018, Fig. 5].
@@ -85,7 +82,7 @@ std::string block_kind(const std::string& name);
 /// The kinds of blocks of some runs, and their colours in all pictures of these runs.
 class BlockKinds {
  public:
-  explicit BlockKinds(const std::vector<NetRun>& runs);
+  explicit BlockKinds(const std::vector<NamedRun>& runs);
   Colour colour(const std::string& block) const;  ///< `block`: name of a block
   std::vector<ColourKey> keys() const;
 
@@ -95,7 +92,7 @@ class BlockKinds {
 
 /// A figure of blocks on their nets in one panel of lines: all blocks of a single run, separated,
 /// or one block of each kind of several runs. Errors: those of draw_over_nets().
-Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyle& style,
+Result<PanelFigure> draw_blocks(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                 Watch& watch);
 
 /// Draws the separate footprints of the blocks and below them the joined footprint, with its
@@ -126,7 +123,7 @@ Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> pl
 
 /// A figure of the shells at their last frame from the style's camera, with rods coloured by
 /// |u|/delta_0 and one colour bar, as lines. Errors: those of draw_over_nets().
-Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& style,
+Result<PanelFigure> draw_pushes(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                 Watch& watch);
 
 /// Force (N) over depth (mm) of all frames of each run. Dashed lines join the states before and

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "render/canvas/colour_map.h"
-#include "render/canvas/text.h"
 #include "render/movie/run_figures.h"
 
 namespace gridshell::render {
@@ -141,9 +140,27 @@ void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series)
     series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
-/// Sets the axes to a square around all lines, so that both have one scale.
-void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
+/// Adds points in plan.
+void add_points(const Eigen::Matrix3Xd& points, Series& series) {
+  for (const auto& p : points.colwise()) series.add(p.x(), p.y());
+}
+
+void add_lines(const std::vector<Eigen::Matrix3Xd>& lines, Series& series) {
+  for (const auto& line : lines) {
+    add_points(line, series);
+    series.part();
+  }
+}
+
+/// A plan whose axes are a square around all lines, so that both have one scale.
+Plot plan_about(const std::vector<Eigen::Matrix3Xd>& lines, const std::string& title) {
   constexpr double wider = 1.08;
+  Plot plot;
+  plot.title = title;
+  plot.x.label = "*x* (mm)";
+  plot.y.label = "*y* (mm)";
+  plot.legend = LegendPosition::above;
+  if (lines.empty()) return plot;
   Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
   for (const auto& line : lines) {
     low = low.cwiseMin(line.topRows<2>().rowwise().minCoeff());
@@ -153,6 +170,7 @@ void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
   const double half = wider * (high - low).maxCoeff() / 2;
   plot.x.low = middle.x() - half, plot.x.high = middle.x() + half;
   plot.y.low = middle.y() - half, plot.y.high = middle.y() + half;
+  return plot;
 }
 
 }  // namespace
@@ -224,7 +242,7 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
   return plot;
 }
 
-Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
+Plot latitude_plot(const NamedRun& named) {
   const record::Trajectory& run = *named.run;
   const double rho = run.layout.length_scale_mm;
   Plot plot;
@@ -239,7 +257,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   // larger markers below, so that a computed joint is visible inside the scanned one
   Series measured =
       mark_series("joints, scanned", {0.80f, 0.16f, 0.12f, 1}, Marker::circle, 4.2, true);
-  add_by_latitude(scan, rho, measured);
+  add_by_latitude(named.scanned, rho, measured);
   plot.add(std::move(measured));
   Series shell = mark_series("joints, computed", ink, Marker::circle, 2.6);
   add_by_latitude(joints_of(run), rho, shell);
@@ -277,26 +295,18 @@ Result<void> write_footprints(const std::filesystem::path& stem, const std::vect
 Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
                   const Eigen::Vector3d& end, const std::string& title) {
   Series net = line_series("the net up to where it ends", {0.45f, 0.5f, 0.55f, 1}, 0.5);
-  for (const auto& line : lines) {
-    for (const auto& p : line.colwise()) net.add(p.x(), p.y());
-    net.part();
-  }
+  add_lines(lines, net);
   Series close =
       mark_series("rods within 17° of parallel", {0.93f, 0.6f, 0.2f, 1}, Marker::circle, 1.8);
-  for (const auto& p : narrow.colwise()) close.add(p.x(), p.y());
+  add_points(narrow, close);
   Series end_mark = mark_series(
       fmt::format("end of the net, *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z())),
       {0.75f, 0.1f, 0.15f, 1}, Marker::cross, 8);
   end_mark.add(end.x(), end.y());
-  Plot plot;
-  plot.title = title;
-  plot.x.label = "*x* (mm)";
-  plot.y.label = "*y* (mm)";
-  plot.legend = LegendPosition::above;
+  Plot plot = plan_about(lines, title);
   plot.series = {net};
   plot.add(std::move(close));
   plot.add(std::move(end_mark));
-  if (!lines.empty()) frame_about(lines, plot);
   return plot;
 }
 
@@ -307,8 +317,9 @@ Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title) {
                                             {0.55f, 0.35f, 0.65f, 1},
                                             {0.6f, 0.6f, 0.6f, 1}}};
   std::size_t reasons = 0;
-  Plot plot;
   std::vector<Eigen::Matrix3Xd> all;
+  for (const PlanPart& part : parts) all.insert(all.end(), part.lines.begin(), part.lines.end());
+  Plot plot = plan_about(all, title);
   for (const PlanPart& part : parts) {
     Series series;
     switch (part.kind) {
@@ -332,19 +343,10 @@ Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title) {
         series = mark_series(part.name, {0.75f, 0.1f, 0.15f, 1}, Marker::cross, 6);
         break;
     }
-    for (const auto& line : part.lines) {
-      for (const auto& p : line.colwise()) series.add(p.x(), p.y());
-      series.part();
-      all.push_back(line);
-    }
-    for (const auto& p : part.points.colwise()) series.add(p.x(), p.y());
+    add_lines(part.lines, series);
+    add_points(part.points, series);
     plot.add(std::move(series));
   }
-  plot.title = title;
-  plot.x.label = "*x* (mm)";
-  plot.y.label = "*y* (mm)";
-  plot.legend = LegendPosition::above;
-  if (!all.empty()) frame_about(all, plot);
   return plot;
 }
 

@@ -14,10 +14,12 @@
 
 namespace gridshell::render {
 
-/// A run and its name in the legend (text with markup).
+/// A run and how it is shown; figures of shells in space show its last frame.
 struct NamedRun {
   const record::Trajectory* run = nullptr;
-  std::string name;
+  std::string name = {};          ///< in the legend or below the panel, text with markup
+  Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's coordinates
+  bool half_span = false;         ///< with the axis x and the half-span L next to the shell
 };
 
 /// K□ of every cell in the last frame over x/L of its centroid, L the half-span of the actuated
@@ -28,9 +30,9 @@ Plot curvature_plot(const std::vector<NamedRun>& runs);
 /// fraction of the joints does not exceed, over that fraction.
 Plot quantile_plot(const std::vector<NamedRun>& runs);
 
-/// r/rho of the joints and of the net (a line at 1) over latitude, for nets on a sphere. `scan`:
-/// measured joints (3 x n, mm, in the net's coordinates) as a further series; may be empty.
-Plot latitude_plot(const NamedRun& run, const Eigen::Matrix3Xd& scan = {});
+/// r/rho of the joints and of the net (a line at 1) over latitude, for nets on a sphere, with the
+/// run's measured joints as a further series.
+Plot latitude_plot(const NamedRun& run);
 
 /// The colour of nets, which differs from the black of shells in print and in grey.
 inline constexpr Colour net_ink{0.93f, 0.53f, 0.05f, 1};

@@ -180,8 +180,8 @@ struct ColourOrigin {
 };
 
 /// The values of a quantity in a frame, one per cell or node: K□ or its change (rad), deviation
-/// over rho, displacement over depth, bending energy over length (mJ/m), axial force (N), largest
-/// stress (MPa) or its ratio to the strength, angle between rods (degrees). Empty for
+/// over rho (%), displacement over depth, bending energy over length (mJ/m), axial force (N),
+/// largest stress (MPa) or its ratio to the strength, angle between rods (degrees). Empty for
 /// ColourBy::none, and if the frame does not have them.
 Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
                                 const record::Frame& frame, const ColourOrigin& from);
@@ -189,11 +189,19 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
 /// The error (Fault::bad_input) of a run that has no values of a quantity in any frame.
 tl::unexpected<Error> missing_values_error(ColourBy by);
 
+/// The colour scale of a quantity: sequential for magnitudes and diverging about zero for
+/// quantities with a sign, even if all values have the same sign. Its end is a quantile of `sizes`,
+/// the magnitudes of the cells or nodes, so that a few extreme ones do not make the others pale,
+/// and never so small that round-off is coloured; the largest stress is within the scale. `all`:
+/// the range of the values.
+ColourScale colour_scale(ColourBy by, std::vector<double> sizes, const Interval& all);
+
+/// A colour bar with the symbol and the name of a quantity.
+ColourBar named_bar(ColourBy by, const ColourScale& scale);
+
 /// The colour bar for all runs that are shown together; empty if nothing is coloured. Its scale is
-/// sequential for magnitudes and diverging about zero for quantities with a sign, even if all
-/// values have the same sign. It is computed from the largest magnitude of each cell or node, so
-/// that it does not depend on the number of frames, by a quantile, so that a few extreme cells do
-/// not make the others pale. Map and range of the style replace these.
+/// computed from the largest magnitude of each cell or node in all frames, so that it does not
+/// depend on their number. Map and range of the style replace these.
 std::optional<ColourBar> colour_bar_of(const std::vector<const RunSummary*>& runs,
                                        const MovieStyle& style);
 

@@ -1,11 +1,11 @@
 #include "render/movie/stage.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "engine/core/try.h"
+#include "render/gl/laths.h"
 #include "render/movie/run_plots.h"
 
 namespace gridshell::render {
@@ -216,14 +216,20 @@ std::optional<ArrowKey> Stage::arrow_key() const {
   return render::arrow_key(run_, survey_.largest_load_N);
 }
 
-std::string Stage::ghost_caption(const record::Frame& frame) const {
+std::optional<ColourKey> Stage::ghost_key(const record::Frame& frame) const {
   constexpr double least = 0.01;  // of the length scale
   // the shell has moved but its boundary has not
   const bool shown = style_.look.ghost && frame.nodes.cols() == survey_.first.nodes.cols() &&
                      frame.actuation == survey_.first.actuation &&
                      survey_.largest_move_mm > least * run_.length_scale_mm &&
                      frame.nodes != survey_.first.nodes;
-  return !shown ? "" : std::isfinite(frame.depth_mm) ? "grey: unloaded" : "grey: first state";
+  if (!shown) return {};
+  return ColourKey{ghost_ink, std::isfinite(frame.depth_mm) ? "unloaded" : "first state"};
+}
+
+std::string Stage::ghost_caption(const record::Frame& frame) const {
+  const auto key = ghost_key(frame);
+  return key ? "grey: " + key->name : "";
 }
 
 Drawing Stage::drawing(const record::Frame& frame) const {
@@ -235,17 +241,10 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.rod_colour = look.rod;
   drawing.rod_diameter_mm = std::max(look.rod_mm > 0 ? look.rod_mm : run_.rod_diameter_mm, thin);
   drawing.joint_colour = look.joint;
-  if (look.rod_mm == 0) drawing.laths_mm = run_.laths_mm;
-  if (look.rod_mm == 0 && run_.laths_mm.empty() && look.lath_width_mm > 0)
-    for (std::size_t r = 0; r < run_.rods.size(); ++r)
-      drawing.laths_mm.insert(drawing.laths_mm.end(), {look.lath_width_mm, look.lath_thickness_mm});
-  if (!drawing.laths_mm.empty() && !look.rod_chosen && look.rod == Appearance{}.rod)
-    drawing.rod_colour = lath_ink;
   drawing.joint_diameter_mm =
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
-  // the bolts of laths are narrower than the laths
-  if (!drawing.laths_mm.empty() && look.joint_mm > 0)
-    drawing.joint_diameter_mm = 0.5 * *std::ranges::max_element(drawing.laths_mm);
+  put_laths(laths_of(run_, look), drawing);
+  if (look.rod_chosen || look.rod != Appearance{}.rod) drawing.rod_colour = look.rod;
   drawing.cell_colours = cell_colours(frame);
   drawing.node_colours = node_colours(frame);
   // rods are wider so that their colours are visible
@@ -261,10 +260,10 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     put_supports(run_, frame, survey_.supported, look, drawing);
   // joints, which shine, would look like interruptions of colours
   if (!drawing.node_colours.empty() && !look.joint_chosen) drawing.joint_diameter_mm = 0;
-  if (!ghost_caption(frame).empty())
+  if (const auto ghost = ghost_key(frame))
     // behind the moved shell, whose colours it would cover if seen from above
     drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
-                              0.8 * drawing.rod_diameter_mm, ghost_ink,
+                              0.8 * drawing.rod_diameter_mm, ghost->colour,
                               std::max(0.25 * run_.spacing_mm, survey_.largest_move_mm)});
   for (const LoadArrow& arrow : load_arrows(run_, frame)) {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});

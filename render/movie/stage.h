@@ -64,7 +64,9 @@ class Stage {
 
   /// the geometry of a frame
   Drawing drawing(const record::Frame& frame) const;
-  /// "grey: unloaded", if the first state is drawn behind the frame; otherwise empty
+  /// the colour and name of the first state, "unloaded", if it is drawn behind the frame
+  std::optional<ColourKey> ghost_key(const record::Frame& frame) const;
+  /// this key as a caption, "grey: unloaded"; otherwise empty
   std::string ghost_caption(const record::Frame& frame) const;
   /// the camera of frame `at`
   Camera camera(int at) const;

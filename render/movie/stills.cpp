@@ -174,8 +174,8 @@ Result<std::vector<std::filesystem::path>> write_stills(
     figure.panels.push_back({around(panel, shown.shell_box()),
                              stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
                              with_marks(caption, frame, style.look)});
-    if (const auto ghost = stage.ghost_caption(frame); !ghost.empty() && figure.keys.empty())
-      figure.keys = {{ghost_ink, ghost.substr(ghost.find(' ') + 1)}};
+    if (const auto ghost = stage.ghost_key(frame); ghost && figure.keys.empty())
+      figure.keys = {*ghost};
     if (style.vector)
       figure.panels.back().lines =
           lines_around(shell_lines(shown.drawing(frame), shown.camera(k)), shown.style(),

@@ -180,12 +180,19 @@ void mark_departure(const Series& curve, Colour colour, double fraction, Plot& p
                   colour, stroke.width, stroke.dash));
 }
 
+/// The factor from a column to the unit of its label: deviations are fractions in the table.
+double shown_factor(const std::string& figure) {
+  return figure.find("deviation") == figure.npos ? 1 : 100;
+}
+
 }  // namespace
 
 std::string label_of(const std::string& name) {
   static const std::map<std::string, std::string> known{
-      {"max_deviation", "largest deviation from the net over *ρ*"},
-      {"mean_deviation", "mean deviation from the net over *ρ*"},
+      {"max_deviation", "largest deviation from the net, Δ/*ρ* (%)"},
+      {"mean_deviation", "mean deviation from the net, Δ/*ρ* (%)"},
+      {"median_deviation", "median deviation from the net, Δ/*ρ* (%)"},
+      {"deviation_p90", "90 % quantile of the deviation from the net, Δ/*ρ* (%)"},
       {"largest_strain", "largest axial strain, by size"},
       {"stiffness_ratio", "*EA* *d*^{2}/*EI*"},
       {"total_K", "total *K*_{□} (rad)"},
@@ -254,7 +261,7 @@ double number_of(const SweepTable::Row& row, const std::string& figure) {
   const double number =
       found ? record::number_of(*found) : std::numeric_limits<double>::quiet_NaN();
   // its sign (tension or compression) differs from edge to edge
-  return figure == "largest_strain" ? std::abs(number) : number;
+  return figure == "largest_strain" ? std::abs(number) : shown_factor(figure) * number;
 }
 
 std::string limit_of(const SweepTable::Row& row) {
@@ -299,12 +306,17 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
       std::ranges::all_of(laws, [](const auto& law) { return law.keys.size() == 1; });
   plot.x.label = label_of(laws.front().keys.front().key);
   plot.x.logarithmic = plot.y.logarithmic = true;
+  const double factor = shown_factor(view.figure);
+  const auto shown = [&](std::vector<double> values) {
+    for (double& value : values) value *= factor;
+    return values;
+  };
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const record::PowerLaw& one = laws[k];
     Series marks =
         mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
     marks.x = one.first_key;
-    marks.y = one.found;
+    marks.y = shown(one.found);
     const auto [low, high] = std::ranges::minmax(marks.x);
     plot.add(std::move(marks));
     for (const record::LawRow& key : one.keys) {
@@ -317,10 +329,9 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
                                series_colour(k), one_key ? 1 : 0);
       if (!one_key && first) row.marker = Marker::cross;
       row.x = one_key ? std::vector{low, high} : one.first_key;
-      row.y = one.law;
-      if (one_key)
-        row.y = {one.factor * std::pow(low, key.exponent),
-                 one.factor * std::pow(high, key.exponent)};
+      row.y = shown(one_key ? std::vector{one.factor * std::pow(low, key.exponent),
+                                          one.factor * std::pow(high, key.exponent)}
+                            : one.law);
       plot.add(std::move(row));
     }
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "render/canvas/legend.h"
-#include "render/canvas/text.h"
 
 namespace gridshell::render {
 namespace {

@@ -57,10 +57,16 @@ TEST_CASE("all points lie in the picture that was fitted to them") {
     render::Camera camera;
     look_from(camera, view);
     fit(camera, size, points);
+    Eigen::Array2d low(size.width, size.height), high(0, 0);
     for (const auto& point : points.colwise()) {
       const Eigen::Vector2d at = pixel(camera, point);
       CHECK((at.x() > 0 && at.x() < size.width && at.y() > 0 && at.y() < size.height));
+      low = low.min(at.array());
+      high = high.max(at.array());
     }
+    // as far from the top as from the bottom, although nearer parts look larger
+    CHECK(low.x() == Approx(size.width - high.x()).margin(0.5));
+    CHECK(low.y() == Approx(size.height - high.y()).margin(0.5));
   }
 }
 

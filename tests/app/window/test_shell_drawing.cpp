@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "render/movie/run_summary.h"
+
 using namespace gridshell;
 using namespace gridshell::window;
 
@@ -33,4 +35,19 @@ TEST_CASE("the distance from a scan, which has joints alone, is known along the 
   CHECK(values[2] == 1);
   CHECK(values[3] == 3);
   CHECK(scale_of(shell, show).high < 10);
+}
+
+TEST_CASE("colours of the window have the scale and the bar of movies") {
+  auto layout = std::make_shared<record::Layout>();
+  layout->cells.resize(2);
+  record::Frame frame;
+  frame.cell_K = Eigen::Vector2d(-0.3, 0.1);
+  const auto shell = view_of(*layout, frame, frame);
+  Show show;
+  show.scale = scale_of(*shell, show);
+  CHECK(show.scale == render::colour_scale(ColourBy::K, {0.3, 0.1}, {-0.3, 0.1}));
+  CHECK(bar_of(*shell, show).label == "*K*_{□} (rad)");
+  CHECK(bar_of(*shell, show).words == "integrated Gauss curvature");
+  show.colour_by = ColourBy::K_change;  // none at all
+  CHECK(scale_of(*shell, show).high == 0.02);
 }

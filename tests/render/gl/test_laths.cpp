@@ -84,3 +84,20 @@ TEST_CASE("rods that are drawn as round, or are, have no lath") {
   drawing.laths_mm.clear();
   CHECK(lath_size(drawing, 0) == Eigen::Vector2f(0, 0));
 }
+
+TEST_CASE("rods become laths with bolts half as wide, and joints that are not drawn no bolts") {
+  const record::Layout layout = crossed_laths();
+  Drawing drawing = drawing_of(layout);
+  drawing.laths_mm.clear();
+  drawing.joint_diameter_mm = 3;
+  const Drawing round = drawing;
+  put_laths({}, drawing);
+  CHECK((drawing.joint_diameter_mm == 3 && drawing.rod_colour == round.rod_colour));
+  put_laths({20, 4, 16, 4}, drawing);
+  CHECK(drawing.laths_mm == std::vector<double>{20, 4, 16, 4});
+  CHECK(drawing.joint_diameter_mm == 10);
+  CHECK(drawing.rod_colour != round.rod_colour);
+  drawing.joint_diameter_mm = 0;
+  put_laths({20, 4}, drawing);
+  CHECK(drawing.joint_diameter_mm == 0);
+}

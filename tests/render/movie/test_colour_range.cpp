@@ -68,6 +68,8 @@ TEST_CASE("runs shown together share one range, so that what is not curved does 
   CHECK(shared->scale.map == diverging);
   // nor alone: a scale never shrinks to noise
   CHECK(alone->scale.high >= 0.02);
+  // nor is it wide where nothing is curved at all
+  CHECK(bar({of_K(0, 0)})->scale.high == 0.02);
 }
 
 TEST_CASE("the range of the change of K contains 0, and a range of the style replaces it") {
@@ -129,9 +131,18 @@ TEST_CASE("the deviation's scale is that of the shell at the end of its boundary
   run.layout.net_nodes.row(2).array() += 0.01 * run.layout.length_scale_mm;
   const auto near = value_of(bar({run}, by(ColourBy::deviation)));
   CHECK(near.scale.low == 0);
-  CHECK(near.scale.high == Approx(0.01));
+  CHECK(near.scale.high == Approx(1));  // %
   CHECK(near.above_scale);
   CHECK_FALSE(near.below_scale);
   // there is no deviation without a net
   CHECK_FALSE(bar({synthetic::dome(3, 1)}, by(ColourBy::deviation)));
+}
+
+TEST_CASE("the largest stress is within its scale, a few large energies are not") {
+  std::vector<double> sizes(100, 1.0);
+  sizes.front() = 9;
+  CHECK(colour_scale(ColourBy::stress, sizes, {1, 9}).high >= 9);
+  CHECK(colour_scale(ColourBy::energy, sizes, {1, 9}).high < 2);
+  CHECK(colour_scale(ColourBy::displacement, sizes, {1, 9}).high >= 9);
+  CHECK(named_bar(ColourBy::stress, {}).label == "*σ* (MPa)");
 }

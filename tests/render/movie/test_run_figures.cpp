@@ -72,7 +72,7 @@ TEST_CASE("scanned joints are one more series of the latitude plot") {
   const record::Trajectory run = one_cell();
   Eigen::Matrix3Xd scan(3, 2);
   scan << 0, 60, 0, 0, 101, 80;
-  const Plot plot = latitude_plot({&run, "shell"}, scan);
+  const Plot plot = latitude_plot({&run, "shell", scan});
   REQUIRE(plot.series.size() == 3);
   CHECK(plot.series[1].x[0] == Approx(90));
   CHECK(plot.series[1].y == std::vector<double>{1.01, 1.0});
@@ -280,7 +280,7 @@ TEST_CASE("shells over nets are lines, with the half-span where it is requested"
   style.size = {64, 48};
   Watch watch;
   const auto figure =
-      draw_over_nets({{.run = &run, .caption = "shell", .half_span = true}}, style, watch);
+      draw_over_nets({{.run = &run, .name = "shell", .half_span = true}}, style, watch);
   REQUIRE(figure);
   CHECK(figure->as_lines);
   REQUIRE(figure->panels.size() == 1);
@@ -295,8 +295,8 @@ TEST_CASE("interpenetrations are named in the caption of a panel that marks them
   style.size = {64, 48};
   Watch watch;
   const auto caption = [&] {
-    const auto over_net = draw_over_nets({{.run = &run, .caption = "cap"}}, style, watch);
-    const auto pushed = draw_pushes({{.run = &run, .caption = "cap"}}, style, watch);
+    const auto over_net = draw_over_nets({{.run = &run, .name = "cap"}}, style, watch);
+    const auto pushed = draw_pushes({{.run = &run, .name = "cap"}}, style, watch);
     REQUIRE((over_net && pushed));
     CHECK(pushed->panels[0].caption.ends_with(over_net->panels[0].caption.substr(3)));
     return over_net->panels[0].caption;

@@ -76,6 +76,18 @@ TEST_CASE("names with their units") {
   CHECK(label_of("newton_iterations") == "newton iterations");
 }
 
+TEST_CASE("deviations, fractions in the table, are shown in per cent") {
+  SweepTable table{{"rod.diameter_mm"}, true, false, {}};
+  for (const char* diameter : {"0.1", "0.2"}) {
+    record::PointResult result;
+    result.figures = {{"max_deviation", 0.03}};
+    table.rows.push_back({{"", {diameter}, 0}, result});
+  }
+  const Plot plot = sweep_plot(table, {.figure = "max_deviation"});
+  CHECK(plot.series[0].y == std::vector<double>{3, 3});
+  CHECK(plot.y.label.ends_with("(%)"));
+}
+
 TEST_CASE("names on an axis are numbered, and drawn at their numbers") {
   SweepTable table{{"actuation.seed"}, false, false, {}};
   for (const char* seed : {"\"up\"", "\"down\""}) {
