@@ -141,7 +141,8 @@ void NestedShell::measure(const Watch& watch, const NestedState& before) {
     if (state_.measured == int(k) + 1 && measure_on(k, base, before, watch)) {
       state_.measured = int(k);
       found = difference(level, state_.t, base, state_.levels[k]);
-      if (constrained) forces.insert(forces.begin(), constraint_forces(level, state_.levels[k]));
+      if (constrained && first_of_last_three() == int(k))
+        forces.insert(forces.begin(), constraint_forces(level, state_.levels[k]));
     } else {
       state_.levels[k] = std::move(base);
     }

@@ -50,6 +50,13 @@ std::vector<PinnedMotion> NestedShell::motions() const {
   return all;
 }
 
+int NestedShell::first_of_last_three() const {
+  constexpr int least_edges = 4;
+  int first = std::max(state_.measured, levels() - 3);
+  while (first < last() && mesh(first).edges_per_segment < least_edges) ++first;
+  return first;
+}
+
 Effort NestedShell::effort() const {
   Effort sum;
   for (const auto& level : levels_) sum += level->system->effort();

@@ -173,8 +173,9 @@ class NestedShell {
   bool extrapolates() const { return plan_.extrapolate && state_.measured < last(); }
   const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
   const RodMesh& finest() const { return levels_.back()->mesh; }
-  /// Index of the first of the levels that forces and energies are computed from, at most three.
-  int first_of_last_three() const { return std::max(state_.measured, levels() - 3); }
+  /// Index of the first of the levels that forces and energies are computed from, at most three, of
+  /// at least four edges per segment: on two, errors of forces do not show their order yet.
+  int first_of_last_three() const;
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
   const Model& model() const { return levels_.back()->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }

@@ -24,17 +24,20 @@ void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
   const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
   middle_ = (low + high) / 2;
   half_extent_mm_ = std::max(1e-6, (high - low).norm());
-  // size and shift depend on each other weakly, by perspective, so that a few rounds converge
-  for (int round = 0; round < 12; ++round) {
-    const Box seen = union_of_views(points);
+  constexpr double exact = 1e-8;  // of the size
+  // size and shift depend on each other by perspective: near points move more than the target. So
+  // the size takes half of its correction, and the shift that of the nearest point.
+  for (int round = 0; round < 40; ++round) {
+    double nearest = 1;
+    const Box seen = union_of_views(points, &nearest);
     const double fit = std::max(seen.width / panel.width, seen.height / panel.height);
-    const double mm = 1 / pixels_per_mm();
-    right_mm_ += (seen.middle().x - width_ / 2.0) * mm;
-    up_mm_ -= (seen.middle().y - height_ / 2.0) * mm;
-    // the middle of the points, now in that of the picture, is moved to that of the panel
-    half_extent_mm_ *= fit;
-    right_mm_ -= (panel.middle().x - width_ / 2.0) / pixels_per_mm();
-    up_mm_ += (panel.middle().y - height_ / 2.0) / pixels_per_mm();
+    const double mm = nearest / pixels_per_mm();
+    right_mm_ += (seen.middle().x - panel.middle().x) * mm;
+    up_mm_ -= (seen.middle().y - panel.middle().y) * mm;
+    half_extent_mm_ *= std::sqrt(fit);
+    const double off = std::hypot(seen.middle().x - panel.middle().x,
+                                  seen.middle().y - panel.middle().y);
+    if (std::abs(fit - 1) < exact && off < exact * height_) break;
   }
 }
 
@@ -63,7 +66,7 @@ Camera Framing::camera(double moment) const {
   return camera;
 }
 
-Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
+Box Framing::union_of_views(const Eigen::Matrix3Xd& points, double* nearest) const {
   const double infinity = std::numeric_limits<double>::infinity();
   Eigen::Array2d low(infinity, infinity), high = -low;
   const int moments = 1 + std::min(24, int(std::ceil(std::abs(turn_deg_) / 6)));
@@ -73,6 +76,8 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
         view_projection(now, double(width_) / height_, now.target, now.half_extent_mm) *
         points.colwise().homogeneous();
     const Eigen::Array2Xd ndc = clip.topRows<2>().array().rowwise() / clip.row(3).array();
+    if (nearest && field_of_view_deg_ > 0)
+      *nearest = std::min(*nearest, clip.row(3).minCoeff() / camera_distance(now));
     low = low.min(ndc.rowwise().minCoeff());
     high = high.max(ndc.rowwise().maxCoeff());
   }

@@ -6,13 +6,13 @@ using namespace gridshell;
 TEST_CASE("a rod with a diameter of its own is hollow by the wall of all, or refused") {
   preset::Preset p = circle(6, 60, 50);
   p.rod.diameter_mm = 2, p.rod.wall_mm = 0.5;
-  p.rod_table = {{0, 3, 1.1}};
+  p.rod_table = {{0, 1, 1.1}};
   CHECK(scene_of(p).has_value());
-  p.rod_table = {{0, 3, 1}};
+  p.rod_table = {{0, 1, 1}};
   const auto scene = scene_of(p);
   REQUIRE_FALSE(scene);
   CHECK_THAT(scene.error().message,
-             Catch::Contains("wall_mm") && Catch::Contains("u-rod 3 of 1 mm diameter"));
+             Catch::Contains("wall_mm") && Catch::Contains("u-rod 1 of 1 mm diameter"));
 }
 
 TEST_CASE("joints without a size of their own are the paper's, or as large as their rods need") {

@@ -183,7 +183,7 @@ TEST_CASE("unloading follows the path back, after a snap on another branch", "[s
   const auto snapped = run(fig1);
   CHECK(snapped.summary.limit == record::Limit::snap);
   CHECK_THAT(snapped.summary.limit_reason,
-             Catch::Contains("on its mesh the path has a limit point at 33.8"));
+             Catch::Contains("on its mesh the path has a limit point at 33.69"));
   const auto& way = snapped.trajectory.frames;
   REQUIRE(way.size() == 21);
   // loading and unloading differ between their two snaps: hysteresis

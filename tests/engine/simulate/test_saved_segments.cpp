@@ -92,12 +92,12 @@ TEST_CASE("a path that was kept whole gives the same bits, and what is damaged i
   const TemporaryFolder folder;
   const Run first = run_with(folder);
   const auto kept = files_in(folder);
-  REQUIRE(kept.size() >= 4);
+  REQUIRE(kept.size() >= 2);
   check_same(first, run_with(folder), 0);
-  std::string bytes = read_file(kept[1]).value();
+  std::string bytes = read_file(kept[0]).value();
   bytes[bytes.size() / 2] ^= 1;
-  REQUIRE(write_file(kept[1], bytes));
-  REQUIRE(write_file(kept[2], "segment"));
+  REQUIRE(write_file(kept[0], bytes));
+  REQUIRE(write_file(kept[1], "segment"));
   check_same(first, run_with(folder), 0);
 }
 

@@ -109,8 +109,10 @@ TEST_CASE("a finer plan has twice the edges, and at most three meshes") {
   CHECK(finer({{4, 8, 16}, true})->edges_per_segment == std::vector<int>{8, 16, 32});
   CHECK(finer({{5}, false})->edges_per_segment == std::vector<int>{5, 10});
   CHECK_FALSE(finer({{32, 64, 128}, true}));
-  CHECK(plan_levels(1e-3).edges_per_segment == std::vector<int>{4, 8});
-  CHECK(plan_levels(5e-4).edges_per_segment == std::vector<int>{8, 16});
+  CHECK(plan_levels(2e-3).edges_per_segment == std::vector<int>{4, 8});
+  CHECK(plan_levels(1e-3).edges_per_segment == std::vector<int>{2, 4, 8});
+  CHECK(plan_levels(1e-3, 5).edges_per_segment == std::vector<int>{10, 20});
+  CHECK(plan_levels(1e-3, 4, 2).edges_per_segment == std::vector<int>{8, 16});
   CHECK(plan_levels(1e-4).edges_per_segment == std::vector<int>{4, 8, 16});
   CHECK(plan_of_mesh(32).edges_per_segment == std::vector<int>{8, 16, 32});
   CHECK(plan_of_mesh(7).edges_per_segment == std::vector<int>{7});
