@@ -70,7 +70,7 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
 CertifiedVectors certify_forces(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                 const Model& model, const Energies& energies);
 
-/// Least error that is told of energies, mJ: 0 where joints pass no moments, else
+/// Least error that is reported of energies, mJ: 0 where joints pass no moments, else
 /// 0.04 (4/k)^3 of the bending and torsion energy, for k edges per segment. A moment at a joint
 /// leaves errors of second to fourth order, which may cancel in the differences of the meshes but
 /// not in the energies: of 120 random networks two differed by 0.0024 (k = 8) and 0.0005 (k = 16)

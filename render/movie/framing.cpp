@@ -35,8 +35,8 @@ void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
     right_mm_ += (seen.middle().x - panel.middle().x) * mm;
     up_mm_ -= (seen.middle().y - panel.middle().y) * mm;
     half_extent_mm_ *= std::sqrt(fit);
-    const double off = std::hypot(seen.middle().x - panel.middle().x,
-                                  seen.middle().y - panel.middle().y);
+    const double off =
+        std::hypot(seen.middle().x - panel.middle().x, seen.middle().y - panel.middle().y);
     if (std::abs(fit - 1) < exact && off < exact * height_) break;
   }
 }

@@ -26,8 +26,8 @@ class Framing {
   const Box& seen() const { return seen_; }
 
  private:
-  /// The box around all points during the turn, pixels. `nearest` becomes the smallest distance of a
-  /// point from the camera over that of the target, if it is smaller.
+  /// The box around all points during the turn, pixels. `nearest` becomes the smallest distance of
+  /// a point from the camera over that of the target, if it is smaller.
   Box union_of_views(const Eigen::Matrix3Xd& points, double* nearest = nullptr) const;
   void fit(const Eigen::Matrix3Xd& points, const Box& panel);
   void look_at(const MovieStyle& style, const Box& panel);

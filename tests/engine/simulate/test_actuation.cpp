@@ -134,7 +134,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
     before = error;
     energy_before = energy;
   }
-  // on two meshes the error told is that of the finer one, and little of it remains
+  // on two meshes the error reported is that of the finer one, and little of it remains
   const auto two = run(fig1(2, 1e-2));
   CHECK(two.summary.edges_per_segment == 8);
   CHECK(distance(two, reference) < 0.1 * two.summary.error_estimate_mm);
