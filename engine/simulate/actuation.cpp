@@ -48,11 +48,13 @@ Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
     std::vector<PathSegment> before = std::exchange(path.segments, {});
     Checkpoint start = path.simulation.save();
     const bool connected = follow_back(path, {.requested = false, .through_unstable = true}, watch);
-    if (connected || !found)
+    // a mesh too coarse to reach the flat says nothing about the branch: a finer one decides
+    const bool decided = connected || path.too_coarse();
+    if (decided || !found)
       found = std::move(start);
     else
       path.segments = std::move(before);
-    if (connected || watch.cancelled()) break;
+    if (decided || watch.cancelled()) break;
   }
   return found;
 }
@@ -218,7 +220,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     follow_segment(path, 1, {}, watch);
   } else {
     TRY(start, begin_from_flat(path, watch));
-    follow_from_flat(path, *start, parameter_at(to), watch);
+    if (!path.too_coarse()) follow_from_flat(path, *start, parameter_at(to), watch);
   }
   if (watch.cancelled()) return stopped();
   set_limit(path, watch);

@@ -235,6 +235,9 @@ TEST_CASE("a path whose first state passes the tolerance is not followed", "[sta
   const EquilibriumPath path = actuated(circle(12, 126, 94.5, 3), plan);
   CHECK(path.too_coarse());
   CHECK(path.segments.front().load_steps.size() == 1);
+  // nor is another first state searched for, which could be on another branch
+  CHECK(path.segments.size() == 1);
+  CHECK(path.segments.front().back);
 }
 
 TEST_CASE("48 rods rise evenly where a mesh of 4 edges alone loses their branch", "[full]") {
