@@ -83,7 +83,7 @@ Result<void> PathSampler::all(const std::vector<PathSample>& samples) {
   }
   simulation_.restore(end);
   // the path ended at the first state if its last segment leads back to the flat one
-  if (last && last->back && samples.back().segment != PathSample::before_path)
+  if (last && last->back && !samples.empty() && samples.back().segment != PathSample::before_path)
     certify_sample(path_, samples.back(), watch_);
   return {};
 }

@@ -3,6 +3,8 @@
 #include <map>
 #include <random>
 
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/path_sampler.h"
 #include "tests/bench/random_scenes.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/environment.h"
@@ -143,6 +145,23 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
   CHECK(error <= 1e-5 * 126);
   CHECK(error < 2 * extrapolated.summary.error_estimate_mm);
   CHECK(extrapolated.summary.error_estimate_mm < 8 * error);
+}
+
+TEST_CASE("a path that ends on the way back to the flat may have no sample") {
+  preset::Preset p = circle(6, 66, 54);
+  p.imperfection.size = 0;
+  const auto scene = shared_scene(p);
+  record::MemorySink sink;
+  Watch watch;
+  const auto path = value_of(simulate::run_experiment(
+      *scene,
+      [&](const LevelPlan& plan, const Watch& w) {
+        return simulate::follow_actuation(scene, plan, true, 1e-6, w);
+      },
+      [](const simulate::EquilibriumPath&) { return std::vector<simulate::PathSample>(); }, sink,
+      watch));
+  CHECK(path.segments.back().back);
+  CHECK(sink.trajectory().frames.empty());
 }
 
 TEST_CASE("a cancelled run ends as cancelled") {
