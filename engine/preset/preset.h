@@ -4,6 +4,7 @@
 // reader of preset_file.h fills a preset.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,12 @@ struct Rod {
   bool as_drawn = false;  ///< whether the drawn line of a network's rod is its natural shape
 
   bool rectangular() const { return width_mm > 0 && thickness_mm > 0; }
+  /// Smaller side of the section, or its diameter, mm.
+  double thinnest_mm() const {
+    return rectangular() ? std::min(width_mm, thickness_mm) : diameter_mm;
+  }
+  /// Whether the section is solid, or a tube whose wall leaves a hollow.
+  bool wall_fits() const { return wall_mm == 0 || 2 * wall_mm < thinnest_mm(); }
   bool has_mass() const { return density_kg_m3 > 0 || mass_g_per_m > 0; }
   /// Largest stress that a fibre withstands, MPa; 0: not given.
   double fibre_strength_MPa() const {

@@ -54,12 +54,10 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                [](const Rod& rod) { return rod.thickness_mm > 0 && rod.width_mm == 0; });
   rods.add<&Rod::wall_mm>(at_least(0), "wall of a tube, round or rectangular; 0: solid")
       .refused({}, [](const Rod& rod) {
-        const double across =
-            rod.rectangular() ? std::min(rod.width_mm, rod.thickness_mm) : rod.diameter_mm;
-        return rod.wall_mm > 0 && 2 * rod.wall_mm >= across
-                   ? fmt::format("a tube with such a wall is not hollow, expected below {}", across,
-                                 0.5 * across)
-                   : "";
+        return rod.wall_fits()
+                   ? ""
+                   : fmt::format("a tube with such a wall is not hollow, expected below {}",
+                                 0.5 * rod.thinnest_mm());
       });
   const char* round = "it is of a section that is equal in all directions, expected width_mm 0";
   rods.add<&Rod::EA_N>(at_least(0), "axial stiffness; 0: from the section");

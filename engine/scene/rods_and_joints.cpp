@@ -92,8 +92,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
   // a rod with a diameter of its own has the wall of all
   for (std::size_t r = 0; r < rods.size(); ++r) {
     const FootprintRod& drawn = footprint.rods[r];
-    if (rods[r].rectangular() || rods[r].wall_mm == 0 || 2 * rods[r].wall_mm < rods[r].diameter_mm)
-      continue;
+    if (rods[r].wall_fits()) continue;
     const std::string name =
         drawn.number >= 0
             ? fmt::format("rods[{}]", drawn.number)
@@ -101,7 +100,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
     return invalid(
         "[rod] wall_mm: got {:g} mm for {} of {:g} mm diameter, which is then not hollow, expected "
         "below {:g}",
-        rods[r].wall_mm, name, rods[r].diameter_mm, 0.5 * rods[r].diameter_mm);
+        rods[r].wall_mm, name, rods[r].diameter_mm, 0.5 * rods[r].thinnest_mm());
   }
   return rods;
 }
@@ -159,8 +158,7 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   TRY(rods, rods_of(preset, footprint));
   double deepest_mm = 0;
   for (const preset::Rod& rod : *rods) {
-    deepest_mm = std::max(
-        deepest_mm, rod.rectangular() ? std::min(rod.width_mm, rod.thickness_mm) : rod.diameter_mm);
+    deepest_mm = std::max(deepest_mm, rod.thinnest_mm());
     scene.diameters_mm.push_back(rod.diameter_mm);
     scene.drawn_diameters_mm.push_back(drawn_diameter_of(rod));
     const bool lath = rod.rectangular();

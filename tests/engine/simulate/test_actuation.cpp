@@ -147,7 +147,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
   CHECK(extrapolated.summary.error_estimate_mm < 8 * error);
 }
 
-TEST_CASE("a path that ends on the way back to the flat may have no sample") {
+TEST_CASE("a path whose last segment leads back to the flat may have no sample") {
   preset::Preset p = circle(6, 66, 54);
   p.imperfection.size = 0;
   const auto scene = shared_scene(p);
