@@ -137,7 +137,7 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     if (over >= 0) drawing.joint_diameter_mm = 0;
     if (over == int(k)) render::show_measured_joints(measured, drawing);
     TRY_DO(add_state(page, found, stage, std::move(drawing), "A" + std::to_string(k + 1),
-                     fmt::format("{:.2f} mJ", found.row().energy_mJ()),
+                     fmt::format("{:#.3g} mJ", found.row().energy_mJ()),
                      {above.x + double(k) * width, above.y, width, above.height}, renderer));
     watch.report(double(k + 1) / double(which.size() + 1));
   }
@@ -151,7 +151,7 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
     const render::Stage wide_stage = staged();
     TRY_DO(add_state(page, *dome, wide_stage, wide_stage.drawing(alone.frames.front()), "A4",
-                     fmt::format("{:.2f} mJ", dome->row().energy_mJ()),
+                     fmt::format("{:#.3g} mJ", dome->row().energy_mJ()),
                      {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);

@@ -253,10 +253,13 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
       (points.empty() || points.back().joint < 0))
     return curve.without = "no joint is fixed", curve;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    // no line where the boundary jumped, or to the coarse mesh of a drag, which has other values
-    const bool put = k > 0 && points[k].joint < 0 &&
-                     std::abs(points[k].progress - points[k - 1].progress) > jump;
-    if (put || (k > 0 && points[k].coarse != points[k - 1].coarse)) curve.jumps.push_back(k);
+    // no line between states of their own, where the boundary jumped, or to the coarse mesh of a
+    // drag, which has other values
+    const auto apart = [&](const PlotPoint& a, const PlotPoint& b) {
+      return curve.whole || a.coarse != b.coarse ||
+             (b.joint < 0 && std::abs(b.progress - a.progress) > jump);
+    };
+    if (k > 0 && apart(points[k - 1], points[k])) curve.jumps.push_back(k);
     if (points[k].coarse) curve.coarse.push_back(curve.x.size());
     if (!points[k].stable) curve.unstable.push_back(curve.x.size());
     curve.x.push_back(float(points[k].*over.value));

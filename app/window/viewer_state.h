@@ -107,7 +107,7 @@ struct Quantity {
   double PlotPoint::*value;
 };
 inline constexpr Quantity quantities[] = {
-    {"equilibrium", "state number", &PlotPoint::equilibrium},
+    {"equilibrium", "equilibrium number", &PlotPoint::equilibrium},
     {"progress", "progress", &PlotPoint::progress},
     {"boundary_radius_mm", "Rₐ (mm)", &PlotPoint::radius_mm},
     {"depth_mm", "depth (mm)", &PlotPoint::depth_mm},

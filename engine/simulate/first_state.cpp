@@ -8,6 +8,7 @@
 #include "engine/elastic/model.h"
 #include "engine/scene/net_design.h"
 #include "engine/scene/rod_ends.h"
+#include "engine/simulate/branch_switch.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/mesh_levels.h"
@@ -38,7 +39,9 @@ Result<State> drawn_rest(Linearisation& system, const RodMesh& mesh, const Pinne
                          double t, const Scene& scene, const Watch& watch) {
   State state = flat_state(system.model(), mesh, motion, scene.flat);
   motion.impose(system, t, state);
-  return find_equilibrium(system, state, 0.5 * scene.footprint.spacing, watch);
+  // the imperfection chooses the side of a saddle, so that it is the same on all meshes
+  return find_equilibrium(system, state, 0.5 * scene.footprint.spacing, watch,
+                          departure_of(scene, mesh, system.model()));
 }
 
 using FindShape = decltype(drawn_rest);
@@ -61,7 +64,8 @@ Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, co
   State state = flat_state(model, mesh, shell.motion(), scene.flat);
   move_to(model, columns_of(mesh, model, nodes), state);
   shell.motion().impose(shell.system(), t, state);
-  return minimise_from(shell.system(), std::move(state), watch);
+  return find_equilibrium(shell.system(), state, 0.5 * scene.footprint.spacing, watch,
+                          departure_of(scene, mesh, model));
 }
 
 /// Checks that no joint with a hinge is closed: if its rods are parallel, they have no plane to

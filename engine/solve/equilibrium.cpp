@@ -293,15 +293,22 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
 }
 
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,
-                               const Watch& watch) {
+                               const Watch& watch, const BranchSwitch& departure) {
   State found = state;
   NewtonOptions options;
   options.farthest_mm = farthest_mm;
   options.tolerance_mm = 1e-7;
   const NewtonReport report = newton(system, found, options, watch);
-  if (report.outcome == Outcome::reached && system.at(found, false).positive_definite())
-    return found;
-  return minimise_from(system, state, watch);
+  if (report.outcome == Outcome::reached) {
+    if (system.at(found, false).positive_definite()) return found;
+    // in a descent from `state` round-off would choose the side of this saddle
+    if (departure.start.size() > 0 && !is_minimum(system, found, 1)) {
+      auto rest = leave_saddle(system, found, softest_mode(system, departure.start, watch),
+                               departure, watch);
+      if (rest || watch.cancelled()) return rest;
+    }
+  }
+  return minimise_from(system, state, watch, departure);
 }
 
 }  // namespace gridshell

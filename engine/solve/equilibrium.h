@@ -77,7 +77,7 @@ Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& sta
 /// `farthest_mm` and end in a minimum; else by minimising the energy; else from a saddle along its
 /// lowest mode. Errors: no_equilibrium with the methods that were tried, cancelled.
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,
-                               const Watch& watch);
+                               const Watch& watch, const BranchSwitch& departure = {});
 
 /// Minimises the energy; from a saddle it continues along the lowest mode. Errors as
 /// find_equilibrium().

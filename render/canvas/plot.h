@@ -119,6 +119,7 @@ struct Plot {
   std::vector<Note> notes;
   LegendPosition legend = LegendPosition::automatic;
   double font_size = 8.5;
+  double labels_width = 0;  ///< least width left of the frame, so that plots in a column align
 
   /// Adds a series on top of all others, unless it has no points.
   void add(Series one) {
@@ -131,6 +132,9 @@ struct Plot {
 void draw_legend(Canvas& canvas, const Box& box, const Plot& plot);
 /// The height of this legend in a box of that width.
 double legend_height(const Plot& plot, double width);
+
+/// The width that the labels left of a plot's frame take.
+double labels_width(const Canvas& canvas, const Box& box, const Plot& plot);
 
 /// Draws the plot with its labels into `box`.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);

@@ -217,7 +217,8 @@ PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, d
                            ? 0
                            : std::max(1.2 * line, canvas.measure(plot.y.label, style).height +
                                                       0.35 * plot.font_size);
-  const double left = box.x + label + widest(canvas, frame.y_ticks, style) + gap;
+  const double left =
+      box.x + std::max(plot.labels_width, label + widest(canvas, frame.y_ticks, style) + gap);
   // half of the last label may be to the right of the frame
   const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
   frame.x.from = left;
@@ -225,6 +226,10 @@ PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, d
   frame.x_ticks = ticks_without_overlap(canvas, frame.x, plot.x.ticks, style);
   frame.inside = {left, top, right - left, bottom - top};
   return frame;
+}
+
+double labels_width(const Canvas& canvas, const Box& box, const Plot& plot) {
+  return lay_out_plot(canvas, box, plot, 0).inside.x - box.x;
 }
 
 void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame& frame) {

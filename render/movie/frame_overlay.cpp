@@ -222,12 +222,12 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
 void put_supports(const record::Layout& layout, const record::Frame& frame,
                   const std::set<int>& supported, const Appearance& look, Drawing& drawing) {
   const double size = 1.3 * drawing.joint_diameter_mm;
-  // supported are the ends with a reaction, since ends may be free; in a flat grid without
-  // reactions all ends at the boundary
-  const std::set<int> ends(layout.edge_points.begin(), layout.edge_points.end());
-  std::set<int> constrained;
-  std::ranges::set_intersection(ends, supported, std::inserter(constrained, constrained.end()));
-  if (constrained.empty() && look.rings) constrained = ends;
+  std::set<int> constrained = supported;
+  for (const record::LoadedJoint& load : layout.loaded_joints)
+    constrained.erase(layout.joints[std::size_t(load.joint)].node);
+  // a flat grid has no reactions yet
+  if (constrained.empty() && look.rings)
+    constrained = {layout.edge_points.begin(), layout.edge_points.end()};
   GhostRods springs{Eigen::Matrix3Xd(3, 0), {}, 0.3 * size, look.ring, -size};
   for (std::size_t k = 0; k < layout.sprung.size(); ++k) {
     const int node = layout.sprung[k];

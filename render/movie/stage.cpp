@@ -378,7 +378,10 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
       above.height *= 0.62;
       below = {below.x, above.bottom(), below.width, below.height - above.height};
       bins.x.label.clear();
-      draw_plot(canvas, below, change_plot(survey_, shown.frame, font));
+      Plot change = change_plot(survey_, shown.frame, font);
+      bins.labels_width = labels_width(canvas, below, change);
+      change.labels_width = labels_width(canvas, above, bins);
+      draw_plot(canvas, below, change);
     }
     draw_plot(canvas, above, bins);
   }

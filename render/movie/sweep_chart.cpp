@@ -313,8 +313,9 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
   };
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const record::PowerLaw& one = laws[k];
+    const std::string name = plain(one.keys.front().case_name);
     Series marks =
-        mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
+        mark_series(name.empty() ? "computed" : name, series_colour(k), series_marker(k));
     marks.x = one.first_key;
     marks.y = shown(one.found);
     const auto [low, high] = std::ranges::minmax(marks.x);
@@ -325,7 +326,7 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
       // a law of one key is a line, one of several keys a cross at each point; every key has a row
       // of the legend
       const bool first = &key == &one.keys.front();
-      Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
+      Series row = line_series(fmt::format("fitted power {} of {}", power, label_of(key.key)),
                                series_colour(k), one_key ? 1 : 0);
       if (!one_key && first) row.marker = Marker::cross;
       row.x = one_key ? std::vector{low, high} : one.first_key;

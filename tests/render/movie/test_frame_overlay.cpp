@@ -80,6 +80,21 @@ TEST_CASE("a flat grid has a ball at every support of the run, and none at a fre
   for (const auto& frame : run.frames) CHECK(long(stage.drawing(frame).marks.size()) == count - 1);
 }
 
+TEST_CASE("a joint that is fixed has a ball, one that is pushed has none") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  const record::Joint &fixed = run.layout.joints[0], &pushed = run.layout.joints[1];
+  run.layout.supports = {fixed.node, pushed.node};
+  run.layout.loaded_joints = {{1}};
+  for (record::Frame& frame : run.frames.edit()) frame.reactions_N = Eigen::Matrix3Xd::Ones(3, 2);
+  const record::Frame& frame = run.frames[1];
+  std::set<int> supported{fixed.node, pushed.node};
+  Drawing drawing;
+  drawing.joint_diameter_mm = 3;
+  put_supports(run.layout, frame, supported, Appearance{}, drawing);
+  REQUIRE(drawing.marks.size() == 1);
+  CHECK(drawing.marks[0].at == frame.nodes.col(fixed.node));
+}
+
 TEST_CASE("a support on a spring is where its spring pulls from, with the spring up to the rod") {
   record::Trajectory run = synthetic::dome(2, 2);
   const int node = run.layout.edge_points[2];
