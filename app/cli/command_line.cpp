@@ -51,7 +51,10 @@ CommandOption entry_of(const CLI::Option& option) {
 Argument Argument::required(bool must) { return option_->required(must); }
 Argument Argument::in_range(int least, int most) { return option_->check(CLI::Range(least, most)); }
 Argument Argument::in_range(double least, double most) {
-  return option_->check(CLI::Range(least, most));
+  // every comparison with nan is false, so a range alone accepts it
+  return option_->check(CLI::Range(least, most))->check([](const std::string& text) {
+    return text.find("nan") == text.npos ? std::string() : text + " is no number";
+  });
 }
 Argument Argument::one_of(const std::vector<std::string>& words) {
   return option_->check(CLI::IsMember(words));
@@ -187,9 +190,10 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     for (const char* key : {"movie.quality", "figure.quality"})
       overrides.push_back({"--quality", key, options.quality});
   if (!options.width.empty()) {
-    const auto number = options.width.substr(0, options.width.rfind("mm"));
+    const bool in_mm = options.width.ends_with("mm");
+    const auto number = options.width.substr(0, options.width.size() - (in_mm ? 2 : 0));
     const auto width = parse_number<double>(number, std::chars_format::fixed);
-    if (number == options.width || !width || !(*width > 0 && *width < 10000))
+    if (!in_mm || !width || !(*width > 0 && *width < 10000))
       return invalid("--width {}: expected millimetres above 0 and below 10000, for example 85mm",
                      options.width);
     overrides.push_back({"--width", "figure.width_mm", number});

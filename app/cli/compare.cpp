@@ -118,6 +118,9 @@ Result<bool> compare_pictures(const CompareOptions& options) {
 
 Result<bool> compare_folders(const CompareOptions& options) {
   TRY(pairs, as_input(pictures_of(options.a, options.b, options.selected)));
+  // else a folder named wrongly would pass, or remove all that is saved
+  if (std::ranges::none_of(*pairs, [](const auto& pair) { return pair.after.has_value(); }))
+    return invalid("'{}' has none of the pictures to compare, expected PNG files", options.b);
   std::vector<render::PicturePair> different;
   for (const render::PicturePair& pair : *pairs) {
     const auto verdict = render::compare_versions(pair, options.threshold);

@@ -37,6 +37,12 @@ std::vector<std::string> contents(const fs::path& folder, std::error_code& error
 struct Manifest {
   std::string command;  // that made the folder, or empty
   std::set<std::string> names;
+
+  /// Whether it lists a file or an empty folder, or what a folder that was emptied contained.
+  bool lists(const std::string& name) const {
+    const auto inside = names.lower_bound(name + "/");
+    return names.contains(name) || (inside != names.end() && inside->starts_with(name + "/"));
+  }
 };
 
 // the manifest of a folder; nothing if it has none
@@ -188,12 +194,14 @@ std::string maker_of(const fs::path& folder) {
   return kind_in(json);
 }
 
+bool has_manifest(const fs::path& folder) { return manifest_of(folder).has_value(); }
+
 std::string why_not_a_run(const fs::path& folder) {
   std::error_code error;
   std::vector<std::string> foreign;
   if (const auto manifest = manifest_of(folder)) {
     for (const auto& name : contents(folder, error))
-      if (!manifest->names.contains(name) && !is_temporary(fs::path(name).filename().string()))
+      if (!manifest->lists(name) && !is_temporary(fs::path(name).filename().string()))
         foreign.push_back(name);
   } else if (const auto run = unlisted(folder)) {
     gather_foreign(folder, *run, "", foreign);

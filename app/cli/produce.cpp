@@ -262,18 +262,21 @@ bool is_of(const fs::path& folder, const std::string& presets) {
   return text && without_version(*text) == presets;
 }
 
-/// The exit code of the finished run of these presets in `folder`; nothing if it is no such run.
+/// The exit code of the finished run of these presets in `folder`, after printing why it failed;
+/// nothing if it is no such run.
 std::optional<int> finished(const fs::path& folder, const std::string& presets,
                             const std::vector<Run>& runs) {
   if (!is_of(folder, presets)) return std::nullopt;
-  bool whole = true;
+  std::vector<std::string> failures;
   for (const Run& run : runs) {
     const auto summary = record::read_summary(folder_of(folder, run.name) / "summary.json");
     if (!summary || !summary->finished || summary->kind != kind_of(run.pictures))
       return std::nullopt;
-    whole = whole && failure_of(*summary, run.preset.allow_unstable).empty();
+    if (auto failure = failure_of(*summary, run.preset.allow_unstable); !failure.empty())
+      failures.push_back(fmt::format("{}: {}\n", run.preset.name, failure));
   }
-  return whole ? ExitCode::done : ExitCode::failed;
+  fmt::print(stderr, "{}", fmt::join(failures, ""));
+  return failures.empty() ? ExitCode::done : ExitCode::failed;
 }
 
 /// The folder that an interrupted run of these presets left; empty if there is no run yet. Errors
@@ -323,7 +326,7 @@ Result<int> produce(const Options& options, Pictures pictures) {
   const auto folder =
       output_of(options, presets->base, pictures == Pictures::stills ? "_figure" : "");
   for (const std::string& note : presets->notes)
-    fmt::print(stderr, "{}: note: {}\n", presets->base.name, note);
+    if (!options.quiet) fmt::print(stderr, "{}: note: {}\n", presets->base.name, note);
   std::vector<Phase> phases;
   auto runs = planned(*presets, pictures, phases);
   if (!runs) {

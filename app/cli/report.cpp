@@ -55,7 +55,8 @@ std::string error_with_unit(double value, const char* unit) {
 
 /// A force with as many decimals as its error permits.
 std::string force_text(double force, double error) {
-  if (!std::isfinite(error) || error <= 0) return number(force);
+  constexpr double round_off = 1e-9;
+  if (!std::isfinite(error) || error <= 0) return number(std::abs(force) < round_off ? 0 : force);
   const int decimals = std::clamp(int(std::ceil(-std::log10(error))), 0, 9);
   const std::string text = fmt::format("{:.{}f}", force, decimals);
   return std::stod(text) == 0 ? "0" : text;
@@ -97,17 +98,22 @@ std::string material_text(const preset::Rod& rod) {
   return render::spaced(std::string(word_of(rod.material)));
 }
 
-void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
+/// The extent of the rods' ends along x and y; of all rods, where none ends on a boundary.
+std::string plan_dimensions(const record::Layout& layout, const record::Frame& last) {
+  const auto& ends = layout.edge_points;
+  const Eigen::Matrix3Xd points = ends.empty() ? last.nodes : last.nodes(Eigen::all, ends).eval();
+  const Eigen::Vector3d span = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+  return number(span.x()) + " × " + with_unit(span.y(), "mm");
+}
+
+void add_geometry(Sheets& sheets, const Run& run, const record::Frame& last,
+                  const exports::FabricationPlan& plan) {
   const record::Summary& summary = run.summary;
-  const auto& boundary = plan.actuated_boundary;
-  // a cantilever has no boundary
-  Eigen::Vector3d span = Eigen::Vector3d::Zero();
-  if (boundary.cols() > 0) span = boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
        {"section and material", plan.section_text() + ", " + material_text(run.preset.rod)},
        {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
-       {"plan dimensions", number(span.x()) + " × " + with_unit(span.y(), "mm")},
+       {"plan dimensions", plan_dimensions(run.trajectory.layout, last)},
        {"rise", with_unit(summary.height_mm, "mm")},
        {"model", fmt::format("{}, {} edges per segment", summary.model, summary.edges_per_segment)},
        {"error of positions", error_with_unit(summary.error_estimate_mm, "mm")},
@@ -178,10 +184,11 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
         fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x() + 0.0, at.y() + 0.0, at.z() + 0.0),
         frame.reactions_N.col(k));
   }
-  sheets.text(fmt::format(
-      "Forces of the supports on the shell, the largest first, z above the lowest support; each is "
-      "known to ± {}.",
-      error_with_unit(frame.force_error_N, "N")));
+  sheets.text(
+      "Forces of the supports on the shell, the largest first, z above the lowest support; " +
+      (std::isfinite(frame.force_error_N)
+           ? "each is known to ± " + error_with_unit(frame.force_error_N, "N") + "."
+           : std::string("their error is not known, as they were computed on one mesh.")));
   std::vector<render::TableColumn> columns{
       {"pin", 48, AlignX::left}, {"position (mm)", 75, AlignX::left},
       {"*x* (N)", 32},           {"*y* (N)", 32},
@@ -328,7 +335,7 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   drawing.report(1);
   sheets.pictures(pictures);
   sheets.heading("Geometry");
-  add_geometry(sheets, run, *plan);
+  add_geometry(sheets, run, last, *plan);
   add_stresses(sheets, run.summary);
   add_reactions(sheets, run.trajectory.layout, last, *plan);
   Watch& studies = progress.next_phase();
@@ -357,6 +364,11 @@ Result<int> make_report(ReportOptions options) {
     return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
   TRY_DO(check_output_file(options.to));
   TRY(runs, read_runs(options.input, {}, options.no_checksum));
+  for (const Run& run : *runs)
+    if (!run.summary.finished)
+      return invalid(
+          "'{}' is not finished, and a report is of a whole run: finish it with --resume",
+          folder_of(options.input, run.name).string());
   TRY(maker, PictureMaker::create("auto", runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {

@@ -172,9 +172,9 @@ Result<void> check_output_file(const fs::path& to) {
 
 Result<void> check_outside_runs(const fs::path& to) {
   std::error_code error;
-  for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
-       folder = folder.parent_path())
-    if (fs::exists(folder / manifest_name, error))
+  for (fs::path folder = fs::weakly_canonical(fs::absolute(to, error), error).parent_path();
+       folder != folder.root_path() && !folder.empty(); folder = folder.parent_path())
+    if (has_manifest(folder))
       return invalid("'{}' is in the run folder '{}'; choose a folder outside it", to.string(),
                      folder.string());
   return {};

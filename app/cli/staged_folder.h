@@ -21,6 +21,9 @@ Result<void> write_manifest(const std::filesystem::path& folder, const std::stri
 /// its summary; empty if neither names it.
 std::string maker_of(const std::filesystem::path& folder);
 
+/// Whether a folder has the manifest that commands of this program write.
+bool has_manifest(const std::filesystem::path& folder);
+
 /// Why a folder is not a run, or which of its files this program did not write; empty if it is a
 /// run without foreign files. A folder without a manifest (an unfinished run, or one of version
 /// 0.1) is a run if it has a summary or journal; files with other names than those of a run are

@@ -60,7 +60,11 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
   const double progress = simulate::progress_of(step, *scene_), begin = seconds_now();
   if (formed_ && !as_drawn_) return take(step, watch);
   auto formed = form(progress, watch);
-  if (!formed || !formed_) return formed;
+  if (!formed) return formed;
+  if (!formed_)
+    return step.edge_points.empty()
+               ? formed
+               : invalid("the shell is still flat: actuate it before its edge points move");
   // form() may end elsewhere: a shell on a net starts at progress 1, a flat one at its first
   // buckled state
   auto moved = take(step, watch);

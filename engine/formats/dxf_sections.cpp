@@ -26,6 +26,8 @@ Result<std::vector<DxfGroup>> groups_of(std::string_view bytes, const std::strin
       return invalid("{}:{}: got no DXF text, expected a code and a value in turn{}", name, line,
                      groups.empty() ? "" : ": is it cut short?");
     groups.push_back({int(*code), trimmed(next_line(bytes)), line + 1});
+    // some programs add a Ctrl-Z or blanks
+    if (*code == 0 && groups.back().value == "EOF") break;
   }
   return groups;
 }

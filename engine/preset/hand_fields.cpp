@@ -66,6 +66,12 @@ void add_stiffening(FieldList<Step>& list) {
       .points({"i", "j", "angle_deg"});
   list.used_by(&Step::kind, {K::open});
   add_index_rules(list, &Step::angles, 2, "joint");
+  list.refused({}, [](const Step& of) -> std::string {
+    for (const auto& row : of.angles)
+      if (!(row[2] >= 1 && row[2] <= 179))
+        return fmt::format("an angle of {:g} degrees, expected 1 to 179", row[2]);
+    return "";
+  });
   list.add<&Step::drive>(
       "open: \"each\": every joint has a spring; \"mean\": one torque, equal at all joints, brings "
       "their mean angle to the target, from the network as drawn");

@@ -166,18 +166,20 @@ BlockKinds::BlockKinds(const std::vector<NamedRun>& runs) {
 }
 
 Colour BlockKinds::colour(const std::string& block) const {
-  // blue is the last, since it is hard to distinguish below a dark shell
-  constexpr Colour colours[] = {{0.85f, 0.45f, 0.10f, 1},
-                                {0.10f, 0.55f, 0.40f, 1},
-                                {0.62f, 0.25f, 0.62f, 1},
-                                {0.16f, 0.42f, 0.78f, 1}};
   // these kinds have one colour in all pictures
-  constexpr std::array known{"quarter sphere", "half cylinder", "saddle"};
+  static const std::map<std::string, Colour> known{{"quarter sphere", {0.85f, 0.45f, 0.10f, 1}},
+                                                   {"half cylinder", {0.10f, 0.55f, 0.40f, 1}},
+                                                   {"saddle", {0.62f, 0.25f, 0.62f, 1}}};
+  constexpr Colour others[] = {{0.16f, 0.42f, 0.78f, 1},
+                               {0.50f, 0.33f, 0.18f, 1},
+                               {0.85f, 0.40f, 0.55f, 1},
+                               {0.52f, 0.54f, 0.12f, 1}};
   const std::string kind = block_kind(block);
-  const auto fixed = std::ranges::find(known, kind);
-  const auto at = fixed != known.end() ? fixed - known.begin()
-                                       : std::ranges::find(kinds_, kind) - kinds_.begin() + 3;
-  return colours[std::size_t(at) % std::size(colours)];
+  if (const auto fixed = known.find(kind); fixed != known.end()) return fixed->second;
+  const auto before =
+      std::ranges::count_if(kinds_.begin(), std::ranges::find(kinds_, kind),
+                            [&](const std::string& other) { return !known.contains(other); });
+  return others[std::size_t(before) % std::size(others)];
 }
 
 std::vector<ColourKey> BlockKinds::keys() const {
