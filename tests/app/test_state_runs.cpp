@@ -32,6 +32,15 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   good("render out/shell_figure -o again", at);
   for (const char* name : {"shell.png", "shell_energies.png", "states.csv", "states.json"})
     CHECK(text_of(run / name) == text_of(at / "again" / name));
+  // a state of unknown range is left out, and the others keep their radii
+  auto unknown = tables;
+  unknown.rows[0].lives_to = unknown.rows[0].lives_to_radius_mm = record::unknown;
+  REQUIRE(record::write_state_tables(run, unknown));
+  good("render out/shell_figure -o known", at);
+  CHECK_THAT(
+      text_of(at / "known/shell_lives.svg"),
+      Contains("up to Ra (mm)") &&
+          Contains(fmt::format("that of 1 of the {} states is not known", tables.rows.size())));
 }
 
 TEST_CASE("states and a finished sweep's phase diagram are on one page", "[standard]") {
