@@ -101,13 +101,20 @@ render::Plot lives_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = "Range in which the states exist";
   plot.x = {.label = "elastic energy at the end of the path (mJ)"};
-  const bool circle = std::ranges::none_of(
-      states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
+  const bool circle = std::ranges::any_of(
+      states.rows, [](const StateRow& row) { return std::isfinite(row.lives_to_radius_mm); });
   plot.y = {.label = circle ? "up to *R*_{a} (mm); actuation ←" : "exists from progress"};
   plot.legend = render::LegendPosition::above;
-  plot.series = by_class(states.rows, [&](const StateRow& row) {
+  const auto end_of = [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;
-  });
+  };
+  std::vector<StateRow> known;
+  std::ranges::copy_if(states.rows, std::back_inserter(known),
+                       [&](const StateRow& row) { return std::isfinite(end_of(row)); });
+  if (known.size() < states.rows.size())
+    plot.title += fmt::format("\nthat of {} of the {} states is not known",
+                              states.rows.size() - known.size(), states.rows.size());
+  plot.series = by_class(known, end_of);
   return plot;
 }
 

@@ -109,15 +109,17 @@ double width_over(const record::Trajectory& run, const record::Trajectory& other
 
 /// Adds panels A: the states ii, iii and iv of the first record and a dome, in space, at one scale
 /// and with one colour bar. Measured joints are drawn over the state that they are nearest to.
-Result<void> add_states(Page& page, const Runs& records, render::MovieStyle style,
-                        render::Renderer& renderer, Watch& watch) {
+/// Returns the positions of the shells that are drawn, "A1–A3 at (*L̄*_{d}, *n*) = (0.8, 12), A4 at
+/// ...", or an empty text.
+Result<std::string> add_states(Page& page, const Runs& records, render::MovieStyle style,
+                               render::Renderer& renderer, Watch& watch) {
   const Run& one = *records.front();
   std::vector<std::size_t> which;
   for (const StateClass kind : {StateClass::ii, StateClass::iii, StateClass::iv})
     if (const auto found = lowest_of(kind, one)) which.push_back(found->at);
   if (which.empty()) {
     page.add_empty("A", above, "none of the states ii, iii and iv was found");
-    return {};
+    return std::string();
   }
   const auto dome = lowest_of(StateClass::i, records);
   const double wider = dome ? width_over(dome->record->trajectory, one.trajectory) : 0;
@@ -141,7 +143,12 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
                      {above.x + double(k) * width, above.y, width, above.height}, renderer));
     watch.report(double(k + 1) / double(which.size() + 1));
   }
+  std::string drawn = which.size() > 1 ? fmt::format("A1–A{}", which.size()) : "A1";
+  drawn += " at " + position_text(one.preset);
   if (dome) {
+    const std::string letter = fmt::format("A{}", which.size() + 1);
+    if (const std::string where = position_text(dome->record->preset); !where.empty())
+      drawn += fmt::format(", {} at {}", letter, where);
     const record::Trajectory alone =
         render::states_alone(dome->record->trajectory, {dome->at}, style);
     render::MovieStyle wide = at_size(style, wider * width, height, dpi);
@@ -150,15 +157,16 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     };
     wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
     const render::Stage wide_stage = staged();
-    TRY_DO(add_state(page, *dome, wide_stage, wide_stage.drawing(alone.frames.front()), "A4",
+    TRY_DO(add_state(page, *dome, wide_stage, wide_stage.drawing(alone.frames.front()), letter,
                      fmt::format("{:#.3g} mJ", dome->row().energy_mJ()),
-                     {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
+                     {above.x + double(which.size()) * width, above.y, wider * width, above.height},
+                     renderer));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
   if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});
   const double units = height * points_per_mm * stage.pixels_per_mm() / stage.style().height();
   page.add_scale_bar({159, 31, 18, 8}, one.preset.figure.scale_bar_mm, units);
-  return {};
+  return drawn;
 }
 
 Result<void> add_diagram(Page& page, const std::string& named) {
@@ -177,12 +185,11 @@ Result<void> add_diagram(Page& page, const std::string& named) {
   return {};
 }
 
-/// Adds a note on what all shells of the page have in common.
-void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
+/// Adds a note on what panels A show, and on what all shells of the page have in common.
+void add_foot(Page& page, const preset::Preset& preset, const std::string& drawn) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return;
-  page.add_note(foot, fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
-                                  position_text(preset), dome.empty() ? "" : ", A4 at " + dome,
-                                  preset.footprint.spacing_mm,
+  page.add_note(foot, fmt::format("{}{}*d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}", drawn,
+                                  drawn.empty() ? "" : "; ", preset.footprint.spacing_mm,
                                   preset.actuated_radius_mm() / preset.original_radius_mm()));
   page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
                 "States of least elastic energy in their class. B: markers are displaced from "
@@ -227,11 +234,10 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch) {
   const Run& first = *records.front();
   Page page{page_width, page_height};
-  TRY_DO(add_states(page, records, style, renderer, watch));
+  TRY(drawn, add_states(page, records, style, renderer, watch));
   TRY_DO(add_diagram(page, first.preset.page.sweep));
   add_maps(page, records);
-  const auto dome = lowest_of(StateClass::i, records);
-  add_foot(page, first.preset, dome ? position_text(dome->record->preset) : "");
+  add_foot(page, first.preset, *drawn);
   return page;
 }
 

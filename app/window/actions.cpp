@@ -76,7 +76,56 @@ void step(ViewerState& viewer, double by) {
   viewer.go(std::clamp(viewer.part() + by, 0.0, 1.0), false);
 }
 
-bool any(const ViewerState& viewer) { return viewer.shell->any(); }
+// Why an action has no effect now.
+
+std::string no_shell(const ViewerState& viewer) {
+  return viewer.shell->any() ? "" : "there is no shell yet";
+}
+
+std::string not_on_net(const ViewerState& viewer) {
+  if (!viewer.shell->any()) return no_shell(viewer);
+  return viewer.shell->layout->net_nodes.cols() > 0 ? "" : "this shell was not designed on a net";
+}
+
+std::string not_compared(const ViewerState& viewer) {
+  return viewer.show.other ? "" : "nothing is compared: File > Compare with…";
+}
+
+// a step that is being computed can be undone, too
+
+std::string not_undone(const ViewerState& viewer) {
+  const bool any = viewer.shell->undo_steps > 0 || !viewer.engine.idle();
+  return any ? "" : "there is nothing to undo";
+}
+
+std::string not_redone(const ViewerState& viewer) {
+  const bool any = viewer.shell->redo_steps > 0 || !viewer.engine.idle();
+  return any ? "" : "there is nothing to do again";
+}
+
+std::string none_prescribed(const ViewerState& viewer) {
+  return viewer.shell->constrained.empty() ? "no joint is prescribed" : "";
+}
+
+std::string already_stable(const ViewerState& viewer) {
+  if (!viewer.shell->any()) return no_shell(viewer);
+  return viewer.shell->stable() ? "the shell is stable" : "";
+}
+
+std::string one_state(const ViewerState& viewer) {
+  return viewer.shell->found
+             ? ""
+             : "only one state of this shell has been found so far: Jitter searches for others";
+}
+
+std::string not_designed(const ViewerState& viewer) {
+  return viewer.shell->designing() ? "the shell is being designed already"
+                                   : why_not_designed(*viewer.shell);
+}
+
+std::string no_design(const ViewerState& viewer) {
+  return viewer.shell->design ? "" : "there is no design";
+}
 
 constexpr Shortcut none{};
 constexpr Shortcut on(Key key) { return {key, false, false}; }
@@ -95,48 +144,49 @@ const Action table[] = {
      [](auto& v) { v.ask_file(FileUse::open); }},
     below_line({"compare", "File", "Compare with a run or scan…", none,
      "draws a run's last state or a scan's joints over the shell, with the distances of the joints",
-     [](auto& v) { v.ask_file(FileUse::compare); }, nullptr, any}),
+     [](auto& v) { v.ask_file(FileUse::compare); }, nullptr, no_shell}),
     {"compare_now", "File", "Compare with this state", none,
      "shows this state in green over the next ones, with the distances of the joints",
-     [](auto& v) { v.compare_with_this(); }, nullptr, any},
+     [](auto& v) { v.compare_with_this(); }, nullptr, no_shell},
     {"compare_net", "File", "Compare with the net", none,
      "shows the net that it was designed on over it, with the distances of the joints",
-     [](auto& v) { v.compare_with_net(); }, nullptr, [](auto& v) { return v.shell->any() && v.shell->layout->net_nodes.cols() > 0; }},
+     [](auto& v) { v.compare_with_net(); }, nullptr, not_on_net},
     {"compare_off", "File", "Compare no more", none, "takes the other shell away",
-     [](auto& v) { v.compare({}); }, nullptr, [](auto& v) { return bool(v.show.other); }},
+     [](auto& v) { v.compare({}); }, nullptr, not_compared},
     below_line({"save_preset", "File", "Save preset", ctrl(Key::s),
      "saves parameters, camera and all that was done, step by step, as a preset that runs",
-     [](auto& v) { v.save_preset(); }, nullptr, any}),
+     [](auto& v) { v.save_preset(); }, nullptr, no_shell}),
     {"save_as", "File", "Save preset as…", ctrl_shift(Key::s), "the same, under a name of your own",
-     [](auto& v) { v.ask_file(FileUse::save_preset); }, nullptr, any},
+     [](auto& v) { v.ask_file(FileUse::save_preset); }, nullptr, no_shell},
     below_line({"export", "File", "Export…", ctrl(Key::e),
      "the shell for other programs and for the workshop, in the format that the ending names",
-     [](auto& v) { v.ask_file(FileUse::export_shell); }, nullptr, any}),
+     [](auto& v) { v.ask_file(FileUse::export_shell); }, nullptr, no_shell}),
     below_line({"save_picture", "File", "Save picture", ctrl(Key::p),
      "saves the view as a PNG, of the size and quality set under Save",
-     [](auto& v) { v.save_picture(); }, nullptr, any}),
+     [](auto& v) { v.save_picture(); }, nullptr, no_shell}),
     {"save_picture_as", "File", "Save picture as…", ctrl_shift(Key::p),
      "the same under a name of your own, by its width in print and dots per inch",
-     [](auto& v) { v.ask_file(FileUse::save_picture); }, nullptr, any},
+     [](auto& v) { v.ask_file(FileUse::save_picture); }, nullptr, no_shell},
     {"save_movie", "File", "Save movie", ctrl(Key::m),
      "makes a movie of what was done, step by step, while you continue with the shell",
-     [](auto& v) { v.save_movie(); }, nullptr, any},
+     [](auto& v) { v.save_movie(); }, nullptr, no_shell},
     {"save_plots", "File", "Save plots", none,
-     "each plot that shows anything as PDF, SVG, PNG and CSV", [](auto& v) { v.save_plots(); }, nullptr, any},
+     "each plot that shows anything as PDF, SVG, PNG and CSV", [](auto& v) { v.save_plots(); }, nullptr, no_shell},
     {"stop_movie", "File", "Stop the movie", none,
      "ends the making of the movie; the frames made so far stay",
-     [](auto& v) { v.movie_task.stop(); }, nullptr, [](auto& v) { return v.movie_task.under_way(); }},
+     [](auto& v) { v.movie_task.stop(); }, nullptr,
+     [](auto& v) -> std::string { return v.movie_task.under_way() ? "" : "no movie is being made"; }},
     below_line({"copy_camera", "File", "Copy camera", ctrl(Key::c),
      "puts the camera on the clipboard, as keys of a preset's [movie]",
-     [](auto& v) { v.copy_camera(); }, nullptr, any}),
+     [](auto& v) { v.copy_camera(); }, nullptr, no_shell}),
     below_line({"quit", "File", "Quit", ctrl(Key::q), "closes the window", [](auto& v) { v.over = true; }}),
 
     {"undo", "Edit", "Undo", ctrl(Key::z), "takes back the last step; a drag is one",
-     [](auto& v) { v.send_command(Undo{}); }, nullptr, [](auto& v) { return v.shell->undo_steps > 0; }},
+     [](auto& v) { v.send_command(Undo{}); }, nullptr, not_undone},
     {"undo_all", "Edit", "Undo everything", none, "back to the first shell; Redo does it all again",
-     [](auto& v) { v.send_command(Undo{true}); }, nullptr, [](auto& v) { return v.shell->undo_steps > 0; }},
+     [](auto& v) { v.send_command(Undo{true}); }, nullptr, not_undone},
     {"redo", "Edit", "Redo", ctrl(Key::y), "does it again",
-     [](auto& v) { v.send_command(Redo{}); }, nullptr, [](auto& v) { return v.shell->redo_steps > 0; }},
+     [](auto& v) { v.send_command(Redo{}); }, nullptr, not_redone},
     below_line({"find_number", "Edit", "Find a parameter", ctrl(Key::f), "searches all parameters of the preset",
      [](auto& v) { v.numbers = v.find_number = true; }}),
     below_line({"stop", "Edit", "Stop", on(Key::escape),
@@ -144,30 +194,30 @@ const Action table[] = {
      [](auto& v) { v.stop(); }}),
 
     {"play", "Shell", "Play", on(Key::space), "plays the preset's path, or stops it",
-     [](auto& v) { v.play(!v.playing); }, [](auto& v) { return v.playing; }, any},
+     [](auto& v) { v.play(!v.playing); }, [](auto& v) { return v.playing; }, no_shell},
     {"step_on", "Shell", "Step on", on(Key::right), "forward by a fiftieth of the path",
-     [](auto& v) { step(v, 0.02); }, nullptr, any},
+     [](auto& v) { step(v, 0.02); }, nullptr, no_shell},
     {"step_back", "Shell", "Step back", on(Key::left), "back by a fiftieth of the path",
-     [](auto& v) { step(v, -0.02); }, nullptr, any},
+     [](auto& v) { step(v, -0.02); }, nullptr, no_shell},
     {"to_start", "Shell", "To the start", on(Key::home), "back to the start of the path",
-     [](auto& v) { v.play(false); v.go(0, false); }, nullptr, any},
+     [](auto& v) { v.play(false); v.go(0, false); }, nullptr, no_shell},
     {"to_end", "Shell", "To the end", on(Key::end), "on to the end of the path",
-     [](auto& v) { v.play(false); v.go(1, false); }, nullptr, any},
+     [](auto& v) { v.play(false); v.go(1, false); }, nullptr, no_shell},
     below_line({"release", "Shell", "Release all joints", on(Key::r), "releases all prescribed joints",
-     [](auto& v) { v.send_command(Release{}); }, nullptr, [](auto& v) { return !v.shell->constrained.empty(); }}),
+     [](auto& v) { v.send_command(Release{}); }, nullptr, none_prescribed}),
     below_line({"gravity", "Shell", "Gravity", on(Key::g), "switches the rods' own weight on and off",
-     [](auto& v) { v.toggle_gravity(); }, [](auto& v) { return v.gravity(); }, any}),
+     [](auto& v) { v.toggle_gravity(); }, [](auto& v) { return v.gravity(); }, no_shell}),
     {"jitter", "Shell", "Jitter", on(Key::j),
      "perturbs the shell by random forces on its joints, then finds an equilibrium",
-     [](auto& v) { v.send_command(Jitter{v.shell->equilibria + 1}); }, nullptr, any},
+     [](auto& v) { v.send_command(Jitter{v.shell->equilibria + 1}); }, nullptr, no_shell},
     {"rest", "Shell", "Go to equilibrium", on(Key::d), "down the energy to the lower side",
-     [](auto& v) { v.send_command(Rest{BranchSide::lower}); }, nullptr, any},
+     [](auto& v) { v.send_command(Rest{BranchSide::lower}); }, nullptr, no_shell},
     {"rest_along", "Shell", "To one side", on(Key::comma),
      "from an unstable state along its lowest mode to an equilibrium",
-     [](auto& v) { v.send_command(Rest{BranchSide::along}); }, nullptr, [](auto& v) { return v.shell->any() && !v.shell->stable(); }},
+     [](auto& v) { v.send_command(Rest{BranchSide::along}); }, nullptr, already_stable},
     {"rest_against", "Shell", "To the other side", on(Key::period),
      "from an unstable state against its lowest mode to an equilibrium",
-     [](auto& v) { v.send_command(Rest{BranchSide::against}); }, nullptr, [](auto& v) { return v.shell->any() && !v.shell->stable(); }},
+     [](auto& v) { v.send_command(Rest{BranchSide::against}); }, nullptr, already_stable},
     below_line(toggle<&ViewerState::animate_mode>("soft_mode", "Shell", "Lowest mode", on(Key::m),
      "moves an unstable shell forward and back along its lowest mode")),
     toggle<&ViewerState::push_freely>("push_freely", "Shell", "Push freely", on(Key::f),
@@ -175,25 +225,27 @@ const Action table[] = {
 
     below_line({"state_next", "Shell", "Next state", on(Key::page_down),
      "to the next of the states that were found on this boundary",
-     [](auto& v) { v.recall(v.current_state() + 1); }, nullptr, [](auto& v) { return bool(v.shell->found); }}),
+     [](auto& v) { v.recall(v.current_state() + 1); }, nullptr, one_state}),
     {"state_before", "Shell", "State before", on(Key::page_up), "to the one before it",
-     [](auto& v) { v.recall(v.current_state() < 0 ? -1 : v.current_state() - 1); }, nullptr, [](auto& v) { return bool(v.shell->found); }},
+     [](auto& v) { v.recall(v.current_state() < 0 ? -1 : v.current_state() - 1); }, nullptr, one_state},
     {"to_loss", "Shell", "Where stability is lost", on(Key::b),
      "moves the boundary to the next range without a stable state on its path, red on the slider",
-     [](auto& v) { v.go_to_loss(); }, nullptr, any},
+     [](auto& v) { v.go_to_loss(); }, nullptr, no_shell},
 
     below_line({"design_start", "Shell", "Start the design", ctrl(Key::d),
      "moves what is ticked until the shell meets its surface, step by step, each one shown",
-     [](auto& v) { v.start_design(); }, nullptr, [](auto& v) { return why_not_designed(*v.shell).empty() && !v.shell->designing(); }}),
+     [](auto& v) { v.start_design(); }, nullptr, not_designed}),
     {"design_stop", "Shell", "Stop the design", none,
      "the last certified step stays on the screen: keep it or put it back",
-     [](auto& v) { v.stop(); }, nullptr, [](auto& v) { return v.shell->designing(); }},
+     [](auto& v) { v.stop(); }, nullptr,
+     [](auto& v) -> std::string { return v.shell->designing() ? "" : "no design is running"; }},
     {"design_keep", "Shell", "Keep the design", none,
      "continues with the designed shell, one step that can be undone; stops the design",
-     [](auto& v) { v.send_command(AcceptDesign{}); }, nullptr, [](auto& v) { return v.shell->design && !v.shell->design->kept; }},
+     [](auto& v) { v.send_command(AcceptDesign{}); }, nullptr,
+     [](auto& v) { return v.shell->design && v.shell->design->kept ? "the design is kept already" : no_design(v); }},
     {"design_put_back", "Shell", "Put back the design", none,
      "the shell as it was before the design, to the bit; stops the design",
-     [](auto& v) { v.send_command(DiscardDesign{}); }, nullptr, [](auto& v) { return bool(v.shell->design); }},
+     [](auto& v) { v.send_command(DiscardDesign{}); }, nullptr, no_design},
 
     look<render::view_home>("view_home", "Home", on(Key::n0), "the whole shell as movies show it"),
     look<render::view_top>("view_top", "Top", on(Key::n7), "from above"),
@@ -217,11 +269,11 @@ const Action table[] = {
      [](auto& v) { return v.camera.field_of_view_deg == 0; }}),
     {"beside", "View", "Side by side", on(Key::v),
      "the shell and what it is compared with next to one another, in the same colours",
-     [](auto& v) { v.show_side_by_side(!v.show.side_by_side); }, [](auto& v) { return v.show.shells() > 1; }, [](auto& v) { return bool(v.show.other); }},
+     [](auto& v) { v.show_side_by_side(!v.show.side_by_side); }, [](auto& v) { return v.show.shells() > 1; }, not_compared},
     {"measure", "View", "Measure", on(Key::w),
      "a click on two joints gives their distance, on a third one the angle at the second",
      [](auto& v) { v.measuring = !v.measuring, v.measured.clear(); },
-     [](auto& v) { return v.measuring; }, any},
+     [](auto& v) { return v.measuring; }, no_shell},
     below_line(toggle<&Show::joints>("joints", "View", "Joints", none, "shows the joints")),
     toggle<&Show::rings>("rings", "View", "Boundaries", none,
      "shows the original and the actuated boundary"),
@@ -314,6 +366,15 @@ constexpr std::pair<const char*, const char*> words_of_panels[] = {
     {"tolerance", "the requested error, over Rₒ of a circle or ρ of a net"}};
 
 }  // namespace
+
+std::string Action::why_not_now(const ViewerState& viewer) const {
+  return why_not ? why_not(viewer) : "";
+}
+
+void Action::perform(ViewerState& viewer) const {
+  if (const std::string why = why_not_now(viewer); !why.empty()) return viewer.say(why, true);
+  act(viewer);
+}
 
 std::string name_of(const Shortcut& shortcut) {
   if (!shortcut.key) return "";

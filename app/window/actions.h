@@ -31,9 +31,14 @@ struct Action {
   Shortcut key;
   const char* help;  ///< one sentence
   void (*act)(ViewerState&);
-  bool (*on)(const ViewerState&) = nullptr;    ///< of a switch: whether it is on
-  bool (*able)(const ViewerState&) = nullptr;  ///< whether it has an effect now; null: always
-  bool below_line = false;                     ///< a line above it begins a group of the menu
+  bool (*on)(const ViewerState&) = nullptr;  ///< of a switch: whether it is on
+  /// The reason why it has no effect now; empty: it has one. Null: it always has.
+  std::string (*why_not)(const ViewerState&) = nullptr;
+  bool below_line = false;  ///< a line above it begins a group of the menu
+
+  std::string why_not_now(const ViewerState& viewer) const;
+  /// Acts, or reports in the status line why it has no effect now.
+  void perform(ViewerState& viewer) const;
 };
 
 /// All actions, in the order of the menus.

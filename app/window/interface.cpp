@@ -203,7 +203,7 @@ void Interface::feed(const InputEvent& event) {
       io.AddInputCharactersUTF8(event.text.c_str());
       break;
     case InputKind::act:
-      find_action(event.text)->act(viewer_);
+      find_action(event.text)->perform(viewer_);
       break;
     case InputKind::open:
       viewer_.open(event.text);
@@ -264,7 +264,7 @@ void Interface::press_key(Key key) {
       viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request || viewer_.new_shell;
   const std::string menu = action->menu;
   if (hidden && (menu == "Shell" || menu == "Edit")) return;
-  action->act(viewer_);
+  action->perform(viewer_);
 }
 
 // ---- a frame ----

@@ -58,6 +58,11 @@ void keys(const Panel& panel, const std::string& menus) {
   ImGui::EndTable();
 }
 
+/// The help of an action, and why it has no effect now.
+std::string tip_of(const std::string& help, const std::string& why_not) {
+  return why_not.empty() ? help : help + "\nNot now: " + why_not;
+}
+
 /// Begins a panel over the window, with its title and a hint on how to close it.
 void begin_sheet(const char* name, const render::Box& box, const char* title, const char* closes) {
   begin_fixed(name, box, 0, Layer::over);
@@ -93,16 +98,17 @@ void Panel::named(const std::string& name, const std::string& tip) const {
 
 void Panel::button(const char* name, const char* text) const {
   const Action& action = *find_action(name);
-  ImGui::BeginDisabled(action.able && !action.able(viewer));
+  const std::string why_not = action.why_not_now(viewer);
+  ImGui::BeginDisabled(!why_not.empty());
   if (ImGui::Button(text ? text : action.label)) action.act(viewer);
   ImGui::EndDisabled();
-  named(name, help_of(action));
+  named(name, tip_of(help_of(action), why_not));
 }
 
 void Panel::tick(const char* name) const {
   const Action& action = *find_action(name);
   bool on = action.on(viewer);
-  if (ImGui::Checkbox(action.label, &on)) action.act(viewer);
+  if (ImGui::Checkbox(action.label, &on)) action.perform(viewer);
   named(name, help_of(action));
 }
 
@@ -282,12 +288,13 @@ void menu_bar(const Panel& panel) {
       if (!open) panel.named(std::string("menu ") + action.menu, "");
     }
     if (!open) continue;
-    const bool ticked = action.on && action.on(panel.viewer),
-               able = !action.able || action.able(panel.viewer);
+    const bool ticked = action.on && action.on(panel.viewer);
+    const std::string why_not = action.why_not_now(panel.viewer);
     if (action.below_line) ImGui::Separator();
-    if (ImGui::MenuItem(action.label, name_of(action.key).c_str(), ticked, able))
+    if (ImGui::MenuItem(action.label, name_of(action.key).c_str(), ticked, why_not.empty()))
       action.act(panel.viewer);
-    panel.named(std::string("menu ") + action.menu + " " + action.name, action.help);
+    panel.named(std::string("menu ") + action.menu + " " + action.name,
+                tip_of(action.help, why_not));
   }
   if (open) ImGui::EndMenu();
   panel.viewer.menu_to_open.clear();

@@ -27,23 +27,15 @@ std::string rod_name(const record::Layout& layout, int rod) {
   return fmt::format("Rod {}", rod);
 }
 
-/// Writes the stress at a node, "stress 120 MPa, 0.48 of the strength", if it is known.
 /// The value of a quantity at a node; unknown if the state does not have it.
-double value_at(const ShellView& shell, preset::ColourBy by, int node) {
+double value_at(const ShellView& shell, ColourBy by, int node) {
   const Eigen::VectorXd all =
       render::coloured_values(by, *shell.layout, shell.frame, {*shell.first});
   return node < all.size() ? all[node] : record::unknown;
 }
 
-void bending_and_stress(const ShellView& shell, int node) {
-  using preset::ColourBy;
-  ImGui::Text("bending %.3g mJ/m", value_at(shell, ColourBy::energy, node));
-  const double stress = value_at(shell, ColourBy::stress, node),
-               used = value_at(shell, ColourBy::utilisation, node);
-  if (!std::isfinite(stress)) return;
-  std::string text = fmt::format("stress {:.3g} MPa", stress);
-  if (std::isfinite(used)) text += fmt::format(", {:.2g} of the strength", used);
-  ImGui::TextUnformatted(text.c_str());
+void write_lines(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) ImGui::TextUnformatted(line.c_str());
 }
 
 void picked_rod(const Panel& panel, const PointOnRod& at) {
@@ -59,10 +51,8 @@ void picked_rod(const Panel& panel, const PointOnRod& at) {
   heading(panel, rod_name(layout, at.rod).c_str());
   ImGui::Text("%.1f of %.1f mm along it", along, length);
   const auto force = record::axial_force_N(layout, shell.frame, std::size_t(at.rod));
-  ImGui::Text("axial force %.3g N", force[k]);
   const double curvature = record::curvature_per_mm(layout, shell.frame, std::size_t(at.rod))[k];
-  ImGui::Text("curvature %.4f 1/mm", curvature);
-  bending_and_stress(shell, nodes[k]);
+  write_lines(known_values(shell, nodes[k], force[k], curvature));
 }
 
 /// A slider for the depth to which the joint is pushed inwards.
@@ -83,6 +73,24 @@ void push_depth(const Panel& panel, int joint) {
 
 }  // namespace
 
+std::vector<std::string> known_values(const ShellView& shell, int node, double axial_force_N,
+                                      double curvature_per_mm) {
+  const double bending = value_at(shell, ColourBy::energy, node),
+               stress = value_at(shell, ColourBy::stress, node),
+               used = value_at(shell, ColourBy::utilisation, node);
+  std::vector<std::string> lines;
+  const auto add = [&](double value, std::string line) {
+    if (std::isfinite(value)) lines.push_back(std::move(line));
+  };
+  add(axial_force_N, fmt::format("axial force {:.3g} N", axial_force_N));
+  add(curvature_per_mm, fmt::format("curvature {:.4f} 1/mm", curvature_per_mm));
+  add(bending, fmt::format("bending {:.3g} mJ/m", bending));
+  add(stress, fmt::format("stress {:.3g} MPa", stress));
+  if (std::isfinite(stress) && std::isfinite(used))
+    lines.back() += fmt::format(", {:.2g} of the strength", used);
+  return lines;
+}
+
 void picked_figures(const Panel& panel) {
   const ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
@@ -96,9 +104,8 @@ void picked_figures(const Panel& panel) {
     heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
     push_depth(panel, viewer.picked_joint);
     ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
-    ImGui::Text("axial force %.3g N",
-                value_at(shell, preset::ColourBy::axial_force, viewer.picked_joint));
-    bending_and_stress(shell, viewer.picked_joint);
+    const double force = value_at(shell, ColourBy::axial_force, viewer.picked_joint);
+    write_lines(known_values(shell, viewer.picked_joint, force));
   }
   if (viewer.picked_rod.rod >= 0 && viewer.picked_rod.rod < int(layout.rods.size()))
     picked_rod(panel, viewer.picked_rod);

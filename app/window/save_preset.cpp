@@ -259,19 +259,16 @@ void ViewerState::compare_with(const fs::path& run) {
 }
 
 void ViewerState::compare_with_this() {
-  if (!shell->any()) return say("there is no shell yet", true);
   compare(std::make_shared<const OtherShell>(OtherShell{"before", shell}));
 }
 
 void ViewerState::compare_with_net() {
-  const record::Layout* layout = shell->layout.get();
-  if (!layout || layout->net_nodes.cols() == 0)
-    return say("this shell was not designed on a net", true);
+  const record::Layout& layout = *shell->layout;
   record::Frame frame;
   frame.progress = frame.actuation = shell->frame.actuation;
-  frame.nodes = layout->net_nodes;
+  frame.nodes = layout.net_nodes;
   frame.cell_K = shell->net_K;
-  compare(std::make_shared<const OtherShell>(OtherShell{"net", view_of(*layout, frame, frame)}));
+  compare(std::make_shared<const OtherShell>(OtherShell{"net", view_of(layout, frame, frame)}));
 }
 
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
@@ -282,7 +279,6 @@ void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
 }
 
 void ViewerState::show_side_by_side(bool on) {
-  if (on && !show.other) return say("nothing is compared: File > Compare with…", true);
   if (on == show.side_by_side) return;
   show.side_by_side = on;
   view.width *= on ? 0.5 : 2;

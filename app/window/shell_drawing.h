@@ -90,6 +90,11 @@ bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::
 /// three joints the angle at the second.
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
 
+/// Lines with the values at a node that are known: the given ones of its rod, bending energy, and
+/// stress, "stress 120 MPa, 0.48 of the strength".
+std::vector<std::string> known_values(const ShellView& shell, int node, double axial_force_N,
+                                      double curvature_per_mm = record::unknown);
+
 /// The name of the quantity that colours the shell, with its unit: "bending energy (mJ/m)".
 std::string label_of(const ShellView& shell, const Show& show);
 /// The colour bar, with the same text as in movies and figures.

@@ -58,9 +58,6 @@ int ViewerState::current_state() const {
 }
 
 void ViewerState::recall(int state) {
-  if (!shell->found)
-    return say("only one state of this shell has been found so far: Jitter searches for others",
-               true);
   const int count = int(shell->found->size());
   send_command(Recall{(state % count + count) % count});
 }

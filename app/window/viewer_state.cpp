@@ -166,8 +166,6 @@ void ViewerState::stop() {
 }
 
 void ViewerState::start_design() {
-  if (const std::string why = why_not_designed(*shell); !why.empty()) return say(why, true);
-  if (shell->designing()) return say("the shell is being designed already", true);
   if (design.inverse.vary.empty())
     return say("nothing may change: tick pins, legs, directions or diameters", true);
   design_panel = true;
@@ -180,7 +178,6 @@ void ViewerState::start_design() {
 }
 
 void ViewerState::toggle_gravity() {
-  if (!shell->any()) return;
   preset::Preset preset = shell->preset;
   preset.loads.gravity_m_s2 = gravity() ? 0 : earth_m_s2;
   if (preset.rod.density_kg_m3 == 0) preset.rod.density_kg_m3 = nitinol_kg_m3;

@@ -10,6 +10,13 @@
 
 namespace gridshell {
 
+/// Richardson extrapolation of a quantity whose error is of second order, from a mesh and one with
+/// edges twice as long: (4 fine - coarse)/3 [Richardson 1911].
+template <class Value>
+Value richardson(const Value& fine, const Value& coarse) {
+  return (4 * fine - coarse) / 3;
+}
+
 /// The next uniform random number in [-1, 1).
 inline double symmetric_uniform(std::mt19937& random) {
   return double(random()) / double(1u << 31) - 1;

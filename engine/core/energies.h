@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/enum_words.h"
 
 namespace gridshell {
@@ -40,8 +41,7 @@ static_assert(
     }(),
     "every term has its line in energy_terms, in their order");
 
-/// Millijoules by term. Sums, differences and multiples go term by term, so that an extrapolation
-/// over two meshes is (4 * fine - coarse) / 3.
+/// Millijoules by term. Sums, differences and multiples go term by term.
 class Energies {
  public:
   static constexpr std::size_t size = energy_terms.size();
@@ -84,15 +84,13 @@ class Energies {
   std::array<double, size> mJ_{};
 };
 
-/// Richardson extrapolation of energies from two meshes, one with edges twice as long, with errors
-/// of second order: (4 fine - coarse)/3. If the result is below 0 for a term that cannot be
-/// negative, the term vanishes with the mesh: it is then the square of a stress extrapolated to (4
-/// s_fine - s_coarse)/3.
+/// Energies extrapolated by richardson(). If the result is below 0 for a term that cannot be
+/// negative, the term vanishes with the mesh: it is then the square of an extrapolated stress.
 inline Energies extrapolated(const Energies& fine, const Energies& coarse) {
-  Energies energies = (4 * fine - coarse) / 3;
+  Energies energies = richardson(fine, coarse);
   for (const auto& [term, name, meaning] : energy_terms) {
     if (term == Term::load || energies[term] >= 0 || !(fine[term] >= 0)) continue;
-    energies[term] = std::pow((4 * std::sqrt(fine[term]) - std::sqrt(coarse[term])) / 3, 2);
+    energies[term] = std::pow(richardson(std::sqrt(fine[term]), std::sqrt(coarse[term])), 2);
   }
   return energies;
 }

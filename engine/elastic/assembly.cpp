@@ -12,23 +12,6 @@
 
 namespace gridshell {
 
-BlockSlot BlockPattern::find(int row, int column) const {
-  const auto [low, high] = std::minmax(row, column);
-  const auto& known = pairs_of_[std::size_t(low)];
-  const auto at =
-      std::ranges::find_if(known, [high = high](const auto& one) { return one.first == high; });
-  if (at == known.end()) return -1;
-  return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
-}
-
-BlockSlot BlockPattern::slot(int row, int column) {
-  const BlockSlot known = find(row, column);
-  if (known >= 0) return known;
-  const auto [low, high] = std::minmax(row, column);
-  pairs_of_[std::size_t(low)].emplace_back(high, int(pairs_.size()));
-  pairs_.push_back({row, column});
-  return 2 * int(pairs_.size() - 1);
-}
 namespace {
 
 /// a nan must survive: comparisons with it are false, so the test is written so that nan passes
@@ -270,8 +253,8 @@ void rod_hessian(const Model& model, const Model::Rod& rod, RodSum& into, const 
   into = sum;
 }
 
-/// Whether the model is large enough to distribute its rods over threads.
-bool worth_sharing(const Model& model) {
+/// Whether the model is so large that its rods are distributed over threads.
+bool is_large(const Model& model) {
   constexpr std::size_t edges = 10000;  // some 0.7 ms
   return model.edges.size() >= edges;
 }
@@ -282,15 +265,15 @@ template <class OfRod>
 void assemble(const Model& model, const State& state, const ExternalLoads& outside,
               const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out, Team* team,
               OfRod of_rod) {
-  const bool apart = worth_sharing(model), with_hessian = stiffness != nullptr;
+  const bool large = is_large(model), with_hessian = stiffness != nullptr;
   reset(model, out);
   if (with_hessian)
     out.hessian.reset(std::size_t(model.columns()), model.pattern.pairs().size(),
-                      apart ? team : nullptr);
-  out.of_rod.assign(apart ? model.rods.size() : 1, {});
-  if (!apart)
+                      large ? team : nullptr);
+  out.of_rod.assign(large ? model.rods.size() : 1, {});
+  if (!large)
     for (const Model::Rod& rod : model.rods) of_rod(rod, out.of_rod.front());
-  for (std::size_t wave = 0; apart && wave < model.waves.size(); ++wave)
+  for (std::size_t wave = 0; large && wave < model.waves.size(); ++wave)
     parallel_for(team, int(model.waves[wave].size()), [&](int k) {
       const auto rod = std::size_t(model.waves[wave][std::size_t(k)]);
       of_rod(model.rods[rod], out.of_rod[rod]);

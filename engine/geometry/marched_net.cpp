@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/point_grid.h"
 #include "engine/core/try.h"
 
@@ -289,7 +290,7 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPose& pose,
   bool any = false;
   grid.each_present([&](int i, int j) {
     any = any || (grid.known(i, j) && (i != 0 || j != 0));
-    grid.node(i, j).p = (4 * fine.at(2 * i, 2 * j).p - grid.at(i, j).p) / 3;
+    grid.node(i, j).p = richardson(fine.at(2 * i, 2 * j).p, grid.at(i, j).p);
   });
   if (!any)
     return invalid("no rod leaves the apex ({:.4g}, {:.4g}, {:.4g}) mm: {}", pose.apex.x(),

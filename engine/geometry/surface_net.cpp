@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/dense.h"
 #include "engine/core/try.h"
 
@@ -263,7 +264,7 @@ Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPose& pose,
     for (int i = coarse->first_u(); i <= coarse->last_u(); ++i) {
       const bool known = coarse->node(i, j) == ChordGrid::Node::known;
       if (known && fine->node(2 * i, 2 * j) == ChordGrid::Node::known) {
-        points.push_back((4 * fine->at(2 * i, 2 * j) - coarse->at(i, j)) / 3);
+        points.push_back(richardson(fine->at(2 * i, 2 * j), coarse->at(i, j)));
         continue;
       }
       points.emplace_back(Eigen::Vector3d::Zero());

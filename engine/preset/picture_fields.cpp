@@ -36,7 +36,7 @@ void add_movie(FieldList<Movie> list) {
                  return of.colour_by == ColourBy::deviation && !preset.on_net();
                })
       .needs_equilibrium("a net's rods bear no forces",
-                         [](const M& of) { return of.colour_by >= ColourBy::energy; })
+                         [](const M& of) { return needs_equilibrium(of.colour_by); })
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
                "\"utilisation\" is of a strength, expected another value, or [rod] strength_MPa or "
                "yield_strain above 0, and of [rod_v] where it differs",

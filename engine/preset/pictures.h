@@ -23,6 +23,24 @@ enum class ColourBy {
   utilisation,
   joint_angle
 };
+/// Whether a colour shows what only rods in equilibrium have, as a force; a net has only a shape.
+constexpr bool needs_equilibrium(ColourBy by) {
+  switch (by) {
+    case ColourBy::energy:
+    case ColourBy::axial_force:
+    case ColourBy::stress:
+    case ColourBy::utilisation:
+    case ColourBy::joint_angle:
+      return true;
+    case ColourBy::none:
+    case ColourBy::K:
+    case ColourBy::displacement:
+    case ColourBy::K_change:
+    case ColourBy::deviation:
+      return false;
+  }
+  return false;
+}
 enum class View { free, front, side, top, corner, push };
 enum class Pace { even, eased, height };
 /// Frames and camera of a movie.

@@ -50,6 +50,13 @@ struct LargeUnit {
 constexpr LargeUnit large_units[] = {
     {"mJ", "kJ", 1e6, 1e6}, {"mJ", "J", 1e3, 1e4}, {"N", "kN", 1e3, 1e4}};
 
+/// A number with so many decimals; zero without a sign.
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find_first_not_of("-0.") == text.npos && text[0] == '-') text.erase(0, 1);
+  return text;
+}
+
 }  // namespace
 
 std::string with_error(double value, double error, const char* unit) {
@@ -62,13 +69,13 @@ std::string with_error(double value, double error, const char* unit) {
   const double exponent = std::floor(std::log10(error));
   if (exponent < 1) {
     const int digits = int(std::clamp(-exponent, 0.0, 12.0));
-    return fmt::format("{:.{}f} ± {}{}", value, digits,
+    return fmt::format("{} ± {}{}", fixed(value, digits),
                        error < 1 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error),
                        end);
   }
   // two digits of the error, and the digits of the value down to the last of them
   const double step = std::pow(10, exponent - 1);
-  return fmt::format("{:.0f} ± {:.0f}{}", std::nearbyint(value / step) * step,
+  return fmt::format("{} ± {:.0f}{}", fixed(std::nearbyint(value / step) * step, 0),
                      std::nearbyint(error / step) * step, end);
 }
 

@@ -143,20 +143,32 @@ struct ModelDetail {
   std::size_t shapes = 0;
 };
 
-/// The finest detail with which the file is smaller than most_model_bytes.
+/// An upper bound of the size of the file, bytes.
+std::size_t size_bound(const record::Layout& layout, const ModelDetail& detail) {
+  // of an array of data in the text: its accessor with the bounds, and its view
+  constexpr std::size_t accessor = 400, vector = 12, triangle = 12, colour = 16;
+  constexpr std::size_t fixed = 20'000;  // a ball, materials and titles
+  const std::size_t joints = layout.joints.size(), cells = layout.cells.size(),
+                    tube = std::size_t(points_of_rods(layout) * detail.sides),
+                    vertices = tube + 2 * layout.rods.size() + 4 * cells;
+  const std::size_t once =
+      fixed + triangle * (2 * tube + 2 * cells) + colour * 4 * cells + joints * (accessor + 300);
+  const std::size_t a_shape = 2 * vector * vertices + 4 * (accessor + 50) + vector * joints +
+                              4 * (1 + detail.shapes);  // time and weights
+  return once + detail.shapes * a_shape;
+}
+
+/// The finest detail with which the file is smaller than most_model_bytes: fewer sides are tried
+/// before fewer shapes.
 Result<ModelDetail> model_detail(const record::Trajectory& run) {
-  std::size_t points = 0;
-  for (const auto& rod : run.layout.rods) points += rod.size();
-  for (const int sides : {8, 6, 4}) {
-    const std::size_t vertices = points * std::size_t(sides) + 4 * run.layout.cells.size();
-    const std::size_t a_shape = 24 * vertices, once = 24 * points * std::size_t(sides) + 100'000 +
-                                                      800 * run.layout.joints.size();
-    if (once + a_shape > most_model_bytes) continue;
-    const std::size_t requested = std::min(most_shapes, run.frames.size()),
-                      shapes = std::min((most_model_bytes - once) / a_shape, requested);
-    if (shapes == requested || sides == 4) return ModelDetail{sides, shapes};
-  }
-  return invalid("one shape of {} points takes more than {} MB as .glb", points,
+  const auto fits = [&](const ModelDetail& detail) {
+    return size_bound(run.layout, detail) <= most_model_bytes;
+  };
+  ModelDetail detail{8, std::min(most_shapes, run.frames.size())};
+  while (detail.sides > 4 && !fits(detail)) detail.sides -= 2;
+  while (detail.shapes > 0 && !fits(detail)) --detail.shapes;
+  if (detail.shapes > 0) return detail;
+  return invalid("one shape of {} points takes more than {} MB as .glb", points_of_rods(run.layout),
                  most_model_bytes / 1'000'000);
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
 #include "engine/preset/consistency.h"
@@ -260,7 +261,7 @@ record::Frame frame_of(const Simulation& simulation) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   Eigen::VectorXd K = curvature(simulation, last);
-  if (shell.extrapolates()) K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
+  if (shell.extrapolates()) K = richardson(K, curvature(simulation, last - 1));
   record::Frame frame;
   fill_shape(simulation.scene(), shell.finest(), simulation.nodes(), K, frame);
   const Certificate certificate = simulation.certificate();

@@ -162,12 +162,8 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
                     fmt::format("[[step]] {} {}", k + 1, joint.error().message));
     if (step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold)
       constrained.insert(step.joint);
-    for (const auto& cell : step.cells)
-      if (std::ranges::none_of(footprint.cells, [&](const FootprintCell& one) {
-            return one.i == cell[0] && one.j == cell[1];
-          }))
-        return invalid("[[step]] {} cells: got [{:g}, {:g}], expected a cell of the footprint",
-                       k + 1, cell[0], cell[1]);
+    if (auto cells = cells_of(step, footprint); !cells)
+      return fail(cells.error().fault, fmt::format("[[step]] {} {}", k + 1, cells.error().message));
     const auto edge_points = double(2 * footprint.rods.size());
     for (const auto& row : step.edge_points)
       if (row[0] >= edge_points)

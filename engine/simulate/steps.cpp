@@ -192,6 +192,21 @@ Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
   return joint;
 }
 
+Result<std::vector<FootprintCell>> cells_of(const preset::Step& step, const Footprint& footprint) {
+  std::vector<FootprintCell> cells = footprint.cells;
+  const auto is = [](const auto& name, const FootprintCell& cell) {
+    return name[0] == cell.i && name[1] == cell.j;
+  };
+  for (const auto& name : step.cells)
+    if (std::ranges::none_of(cells, [&](const auto& cell) { return is(name, cell); }))
+      return invalid("cells: got [{:g}, {:g}], expected a cell of the footprint", name[0], name[1]);
+  if (!step.cells.empty())
+    std::erase_if(cells, [&](const auto& cell) {
+      return std::ranges::none_of(step.cells, [&](const auto& name) { return is(name, cell); });
+    });
+  return cells;
+}
+
 double progress_of(const preset::Step& step, const Scene& scene) {
   return step.radius_mm == 0 ? step.progress : scene.progress_of_radius(step.radius_mm);
 }

@@ -19,6 +19,10 @@ std::string text_of(const preset::Step& step);
 /// The joint that a step names. Errors (bad_input): the footprint has no such joint.
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
 
+/// The cells that a step names, all if it names none. Errors (bad_input): the footprint has no such
+/// cell.
+Result<std::vector<FootprintCell>> cells_of(const preset::Step& step, const Footprint& footprint);
+
 /// The progress to which a move step goes.
 double progress_of(const preset::Step& step, const Scene& scene);
 

@@ -180,15 +180,14 @@ std::string text_of_opened(const Simulation& simulation) {
 
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   TRY_DO(check_formed(simulation));
+  TRY(cells, cells_of(step, simulation.scene().footprint));
+  if (cells->empty()) return invalid("the footprint has no cells to brace");
   ShellRods rods = simulation.rods();
   const NestedShell& shell = simulation.shell();
   const Eigen::Matrix3Xd at = fixed_vectors(shell, [&](int level) -> Eigen::Matrix3Xd {
     return shell.state().levels[std::size_t(level)].x.leftCols(shell.finest().joints);
   });
-  for (const FootprintCell& cell : simulation.scene().footprint.cells) {
-    const bool chosen = std::ranges::any_of(
-        step.cells, [&](const auto& row) { return row[0] == cell.i && row[1] == cell.j; });
-    if (!step.cells.empty() && !chosen) continue;
+  for (const FootprintCell& cell : *cells) {
     for (const int k : {0, 1}) {
       if (step.diagonals == (k == 0 ? preset::Diagonals::second : preset::Diagonals::first))
         continue;
@@ -197,8 +196,6 @@ Result<Report> brace(Simulation& simulation, const preset::Step& step, const Wat
                              step.brace == preset::BraceKind::cable});
     }
   }
-  if (rods.braces.size() == simulation.rods().braces.size())
-    return invalid("got cells that the footprint does not have");
   return simulation.set_rods(rods, watch);
 }
 

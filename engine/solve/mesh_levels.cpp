@@ -54,8 +54,11 @@ LevelPlan plan_levels(double tolerance, int base, double growth) {
                                      : LevelPlan{{base / 2, base, 2 * base}, true};
   if (meets(plan)) return plan;
   plan = {{base, 2 * base, 4 * base}, true};
-  while (growth * expected_error(plan) > tolerance)
-    for (int& edges : plan.edges_per_segment) edges *= 2;
+  while (growth * expected_error(plan) > tolerance) {
+    const auto next = finer(plan);
+    if (!next) break;  // the tolerance is not met, as the estimate will show
+    plan = *next;
+  }
   return plan;
 }
 

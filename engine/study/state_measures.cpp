@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/equilibrium_path.h"
@@ -100,8 +101,8 @@ double StateMeasures::eigenvalue(const Watch& watch) {
     return lowest_eigenvalue(shell.system(level), shell.state().levels[std::size_t(level)], length,
                              watch);
   };
-  const int last = shell.last();
-  return shell.extrapolates() ? (4 * on(last) - on(last - 1)) / 3 : on(last);
+  const double finest = on(shell.last());
+  return shell.extrapolates() ? richardson(finest, on(shell.last() - 1)) : finest;
 }
 
 /// Follows the branch of a state back towards the flat, on the mesh of judged_edges, until it ends.

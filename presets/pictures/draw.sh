@@ -8,9 +8,13 @@ program=$(realpath "$1") here=$(cd "$(dirname "$0")" && pwd)
 shift
 [ $# -gt 0 ] || set -- s1_actuation s2_indentation lit_rigidity fig2_phase_diagram accuracy stability cards
 at=$(mktemp -d)
-trap 'rm -rf "$at"' EXIT
 to=${TO:-$here}
+trap 'rm -rf "$at" "$picture.part"' EXIT
 mkdir -p "$to/cards"
+copy() {  # no incomplete picture has a final name
+  cp "$1" "$picture.part"
+  mv "$picture.part" "$picture"
+}
 for name; do
   picture=$to/$name.png
   case $name in
@@ -20,18 +24,18 @@ for name; do
     cards/*) "$program" view "${name#cards/}" --picture "$picture" --size 256x160 --bare >/dev/null ;;
     s1_actuation | s2_indentation)
       "$program" movie "$name" --frames 24 --size 800x450 --quiet -o "$at/$name"
-      cp "$(ls "$at/$name/frames/"*.png | tail -n 1)" "$picture"
+      copy "$(ls "$at/$name/frames/"*.png | tail -n 1)"
       ;;
     lit_rigidity | fig2_phase_diagram)
       "$program" sweep "$name" --quiet -o "$at/$name"
       case $name in
-        lit_rigidity) cp "$at/$name/stiffness_N_per_mm_law.png" "$picture" ;;
-        *) cp "$at/$name/classes.png" "$picture" ;;
+        lit_rigidity) copy "$at/$name/stiffness_N_per_mm_law.png" ;;
+        *) copy "$at/$name/classes.png" ;;
       esac
       ;;
     accuracy | stability)
       "$program" chart "$name" fig1_actuation --quiet -o "$at/$name"
-      cp "$at/$name/$name.png" "$picture"
+      copy "$at/$name/$name.png"
       ;;
     *)
       echo "$name: no picture of that name" >&2

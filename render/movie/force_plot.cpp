@@ -24,12 +24,12 @@ std::optional<double> depth_of_snap(const record::Frame& frame) {
 Series snaps_of(const Series& pushed, const record::Trajectory& run) {
   Series snaps = line_series("", pushed.colour, pushed.line_width, {3, 2});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
-    const record::Frame after = run.frames[k];
+    const record::Frame& after = run.frames.head(k);
     if (!after.event.starts_with("snap")) continue;
     // frames of a motion in time have no force
     std::size_t at = k - 1;
     while (at > 0 && !std::isfinite(pushed.y[at])) --at;
-    const record::Frame before = run.frames[at];
+    const record::Frame& before = run.frames.head(at);
     const double depth = depth_of_snap(after).value_or(after.depth_mm);
     const auto force = [&](const record::Frame& frame) {
       const double slope = std::isfinite(frame.stiffness_N_per_mm) ? frame.stiffness_N_per_mm : 0;
@@ -48,7 +48,7 @@ Series snaps_of(const Series& pushed, const record::Trajectory& run) {
 Series unstable_of(const Series& pushed, const record::Trajectory& run) {
   Series pieces = line_series("", pushed.colour, pushed.line_width, {1.2, 1.5});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
-    const record::Frame from = run.frames[k - 1], to = run.frames[k];
+    const record::Frame &from = run.frames.head(k - 1), &to = run.frames.head(k);
     if (to.event.starts_with("snap") || std::max(from.negative_pivots, to.negative_pivots) <= 0)
       continue;
     pieces.add(from.depth_mm, from.force_N);
@@ -61,8 +61,8 @@ Series unstable_of(const Series& pushed, const record::Trajectory& run) {
 /// Interrupts the line at snaps and at unstable states, which have lines of their own.
 void part_at_snaps(Series& pushed, const record::Trajectory& run) {
   for (std::size_t k = run.frames.size(); k-- > 1;)
-    if ((run.frames[k].event.starts_with("snap") ||
-         std::max(run.frames[k].negative_pivots, run.frames[k - 1].negative_pivots) > 0) &&
+    if (const record::Frame& from = run.frames.head(k - 1), &to = run.frames.head(k);
+        (to.event.starts_with("snap") || std::max(from.negative_pivots, to.negative_pivots) > 0) &&
         std::isfinite(pushed.y[k - 1])) {
       pushed.x.insert(pushed.x.begin() + long(k), NAN);
       pushed.y.insert(pushed.y.begin() + long(k), NAN);
@@ -74,7 +74,8 @@ bool errors_seen(const std::vector<NamedRun>& runs) {
   constexpr double line = 0.01;  // width of a line over the length of the axis
   double force = 0, error = 0;
   for (const NamedRun& one : runs)
-    for (const record::Frame& frame : one.run->frames) {
+    for (std::size_t k = 0; k < one.run->frames.size(); ++k) {
+      const record::Frame& frame = one.run->frames.head(k);
       force = std::max(force, std::abs(frame.force_N));
       error = std::max(error, frame.push_error_N);
     }
@@ -87,7 +88,8 @@ std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
   std::vector<Band> bands;
   colour.a = 0.25f;
   bool goes_on = false;
-  for (const record::Frame& frame : run.frames) {
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    const record::Frame& frame = run.frames.head(k);
     const bool known = std::isfinite(frame.force_N) && std::isfinite(frame.push_error_N);
     if (known && (!goes_on || frame.event.starts_with("snap")))
       bands.push_back({.name = "", .colour = colour});
@@ -101,12 +103,14 @@ std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
 }
 
 /// Whether `other` has the force of most points of a curve at the same depth, within a hundredth.
+/// Of a long curve about a thousand points are compared.
 bool is_mostly_on(const Series& curve, const Series& other) {
   constexpr double near = 0.01;  // of the largest force
   double largest = 0;
   for (const double force : curve.y) largest = std::fmax(largest, std::abs(force));
-  std::size_t on = 0;
-  for (std::size_t n = 0; n < curve.x.size(); ++n) {
+  const std::size_t stride = 1 + curve.x.size() / 1000;
+  std::size_t on = 0, all = 0;
+  for (std::size_t n = 0; n < curve.x.size(); n += stride, ++all) {
     double apart = INFINITY;
     for (std::size_t k = 1; k < other.x.size(); ++k) {
       const double part = (curve.x[n] - other.x[k - 1]) / (other.x[k] - other.x[k - 1]);
@@ -116,18 +120,18 @@ bool is_mostly_on(const Series& curve, const Series& other) {
     }
     on += apart <= near * largest;
   }
-  return 2 * on > curve.x.size();
+  return 2 * on > all;
 }
 
 /// A mark at the largest force, if the force then falls.
 Series peak_of(const Series& pushed) {
   Series peak = mark_series("", pushed.colour, Marker::circle, 4, true);
-  std::size_t at = 0, last = 0;
-  for (std::size_t k = 0; k < pushed.y.size(); ++k) {
-    if (std::isfinite(pushed.y[k])) last = k;
-    if (pushed.y[k] > pushed.y[at]) at = k;
-  }
-  if (at > 0 && at < last) peak.add(pushed.x[at], pushed.y[at]);
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; k < pushed.y.size(); ++k)
+    if (std::isfinite(pushed.y[k])) known.push_back(k);
+  const auto at = std::ranges::max_element(known, {}, [&](std::size_t k) { return pushed.y[k]; });
+  const bool rises_and_falls = at != known.begin() && at != known.end() && at + 1 != known.end();
+  if (rises_and_falls) peak.add(pushed.x[*at], pushed.y[*at]);
   return peak;
 }
 
@@ -158,7 +162,10 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
     // with many frames there are no markers, which would cover the line
     constexpr std::size_t most_marked = 24;
     if (runs[k].run->frames.size() <= most_marked) curve.marker = series_marker(k);
-    for (const record::Frame& frame : runs[k].run->frames) curve.add(frame.depth_mm, frame.force_N);
+    for (std::size_t n = 0; n < runs[k].run->frames.size(); ++n) {
+      const record::Frame& frame = runs[k].run->frames.head(n);
+      curve.add(frame.depth_mm, frame.force_N);
+    }
   }
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series& series = curves[k];

@@ -156,9 +156,10 @@ std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::
 
 Eigen::Matrix3Xd small_loads(const record::Frame& frame) {
   const Eigen::RowVectorXd size = frame.loads_N.colwise().norm();
+  const double largest = size.size() > 0 ? size.maxCoeff() : 0;
   std::vector<Eigen::Index> small;
   for (Eigen::Index k = 0; k < size.size(); ++k)
-    if (size[k] > 0 && size[k] < 0.1 * size.maxCoeff()) small.push_back(k);
+    if (size[k] > 0 && size[k] < 0.1 * largest) small.push_back(k);
   if (std::ssize(small) < many_loads) small.clear();
   return frame.loads_N(Eigen::all, small);
 }

@@ -192,3 +192,25 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   CHECK(why.find("a lighter grey (gone.png, in, new.png)") != std::string::npos);
   CHECK(gridshell_program("compare kept now/same.png", folder).code == 2);
 }
+
+TEST_CASE("a picture of the pages that cannot be written completely leaves the one before it") {
+  const TemporaryFolder at;
+  // a program whose movie is a link, so that only the copy is written
+  const auto run = [](const std::string& command) { return std::system(command.c_str()); };
+  REQUIRE(write_file(at / "movie.png", std::string(50'000, 'x')));
+  REQUIRE(write_file(at / "program",
+                     "#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done\nmkdir -p \"$2/frames\"\n"
+                     "ln -s \"${0%/*}/movie.png\" \"$2/frames/last.png\"\n"));
+  fs::permissions(at / "program", fs::perms::owner_all);
+  fs::create_directory(at / "to");
+  const fs::path picture = at / "to/s1_actuation.png";
+  REQUIRE(write_file(picture, "before"));
+  const std::string draw = "TO='" + (at / "to").string() +
+                           "' " GRIDSHELL_SOURCE_DIR "/presets/pictures/draw.sh '" +
+                           (at / "program").string() + "' s1_actuation 2>/dev/null";
+  CHECK(run("ulimit -f 8; " + draw) != 0);
+  CHECK(text_of(picture) == "before");
+  CHECK(files_under(at / "to", ".part").empty());
+  CHECK(run(draw) == 0);
+  CHECK(text_of(picture).size() == 50'000);
+}

@@ -32,6 +32,15 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   good("render out/shell_figure -o again", at);
   for (const char* name : {"shell.png", "shell_energies.png", "states.csv", "states.json"})
     CHECK(text_of(run / name) == text_of(at / "again" / name));
+  // a state of unknown range is left out, and the others keep their radii
+  auto unknown = tables;
+  unknown.rows[0].lives_to = unknown.rows[0].lives_to_radius_mm = record::unknown;
+  REQUIRE(record::write_state_tables(run, unknown));
+  good("render out/shell_figure -o known", at);
+  CHECK_THAT(
+      text_of(at / "known/shell_lives.svg"),
+      Contains("up to Ra (mm)") &&
+          Contains(fmt::format("that of 1 of the {} states is not known", tables.rows.size())));
 }
 
 TEST_CASE("states and a finished sweep's phase diagram are on one page", "[standard]") {
@@ -53,6 +62,9 @@ TEST_CASE("states and a finished sweep's phase diagram are on one page", "[stand
   good("figure page.toml --quiet", at);
   const std::string empty = text_of(at / "out/page_figure/page_page.svg");
   CHECK_THAT(empty, Contains("names no sweep") && !Contains("longest leg"));
+  // the foot names no state, since only domes and others were found
+  CHECK_THAT(empty, Contains("none of the states ii, iii and iv was found"));
+  CHECK_THAT(empty, !Contains("A1") && !Contains("A4") && Contains("d = 20 mm"));
   good("sweep sweep.toml --quiet", at);
   // drawn again with the sweep, with pictures of the shells too
   good("render out/page_figure -o again --quiet --set page.sweep=out/sweep --set page.drawn=true",
@@ -118,7 +130,9 @@ TEST_CASE("joints measured lie over a state of a page of states", "[standard]") 
       "[accuracy]\nedges_per_segment = 4\n[jitter]\ntrials = 2\nconfined = 7\n"
       "[page]\nkind = \"fig2\"\n[movie]\nsize = [320, 240]\n[figure]\nquality = \"draft\"\n"));
   good("figure page.toml --quiet", at);
-  CHECK(text_of(at / "out/page_figure/page_page.svg").find("joints measured") == std::string::npos);
+  // two states and no dome are found
+  CHECK_THAT(text_of(at / "out/page_figure/page_page.svg"),
+             !Contains("joints measured") && Contains("A1–A2 at (L̄d, n) = (0.4, 6); d = 20 mm"));
   const Ended drawn = good({"render", "out/page_figure", "-o", "again", "--quiet", "--set",
                             "figure.scan=[[0, 0, 20], [10, 10, 18]]"},
                            at);

@@ -122,6 +122,9 @@ TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what
 TEST_CASE("what cannot be done is said in the window, and by the recording's line") {
   const TemporaryFolder folder;
   CHECK(played(folder, "do undo\ndo undo\n")["message"] == "there is nothing to undo");
+  const json stable = played(folder, "down Comma\nup Comma\n");
+  CHECK(stable["message"] == "the shell is stable");
+  CHECK(stable["undo_steps"] == 0);
   CHECK_THAT(played(folder, "open nothing_of_the_kind\n")["message"].get<std::string>(),
              Contains("nothing_of_the_kind"));
   const auto refused = [&](const std::string& input) {

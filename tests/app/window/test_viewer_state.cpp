@@ -126,7 +126,7 @@ TEST_CASE("two shells are side by side, each in half of the view") {
   auto shell = std::make_shared<ShellView>(shell_of_four_joints());
   viewer.shell = shell;
   viewer.view = {800, 600};
-  find_action("beside")->act(viewer);
+  find_action("beside")->perform(viewer);
   CHECK(viewer.message_bad);
   CHECK(viewer.show.shells() == 1);
   record::Frame higher = shell->frame;
@@ -149,6 +149,32 @@ TEST_CASE("two shells are side by side, each in half of the view") {
   viewer.compare({});
   CHECK(viewer.view.width == 800);
   CHECK(viewer.show.shells() == 1);
+}
+
+TEST_CASE("an action that has no effect now does nothing, and the status line says why") {
+  ViewerState viewer({});
+  const auto refused = [&](const char* name) {
+    viewer.say("");
+    find_action(name)->perform(viewer);
+    CHECK(viewer.message_bad);
+    CHECK(viewer.engine.idle());
+    return viewer.message;
+  };
+  CHECK(refused("play") == "there is no shell yet");
+  CHECK_FALSE(viewer.playing);
+  auto shell = std::make_shared<ShellView>(shell_of_four_joints());
+  viewer.shell = shell;
+  CHECK(refused("rest_along") == "the shell is stable");
+  CHECK(refused("undo_all") == "there is nothing to undo");
+  CHECK(refused("redo") == "there is nothing to do again");
+  CHECK(refused("release") == "no joint is prescribed");
+  CHECK(refused("state_next").starts_with("only one state"));
+  CHECK(refused("compare_net") == "this shell was not designed on a net");
+  CHECK(refused("design_keep") == "there is no design");
+  shell->certificate.negative_pivots = 1;
+  shell->undo_steps = 1;
+  for (const char* name : {"rest_along", "undo"})
+    CHECK(find_action(name)->why_not_now(viewer) == "");
 }
 
 TEST_CASE("what loads a shell is drawn as arrows and its braces as bars, until switched off") {

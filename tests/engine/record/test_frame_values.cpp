@@ -81,6 +81,11 @@ TEST_CASE("a value is reported in the digits that its error leaves certain") {
   CHECK(with_error(26168.5, 40, "mJ") == "26.17 ± 0.04 J");
   CHECK(with_error(12345, 60, "N") == "12.35 ± 0.06 kN");
   CHECK(with_error(0.25, 0, "N") == "0.25 N");
+  // a value that its error rounds to zero has no sign
+  CHECK(with_error(-0.3, 1, "N") == "0 ± 1 N");
+  CHECK(with_error(-0.0004, 0.03, "N") == "0.00 ± 0.03 N");
+  CHECK(with_error(-0.3, 40, "N") == "0 ± 40 N");
+  CHECK(with_error(-0.3, 0.1, "N") == "-0.3 ± 0.1 N");
   CHECK(with_error(0.123456, unknown, "N") == "0.1235 N (error not known)");
 }
 

@@ -123,6 +123,18 @@ TEST_CASE("a GLB contains its chunks, as many key shapes as frames, and a path f
   }
 }
 
+TEST_CASE("a GLB of many joints has fewer key shapes instead of more than 20 MB") {
+  record::Trajectory run = sample_trajectory();
+  run.layout.joints.resize(20'000);
+  run.layout.cells.resize(1'000, run.layout.cells.front());
+  for (record::Frame& frame : run.frames.edit()) frame.cell_K.setConstant(1'000, 0.01);
+  const record::Frame last = run.frames.back();
+  for (int k = 0; k < 60; ++k) run.frames.push_back(last);
+  const std::size_t size = value_of(to_glb(run, "many", 2)).size();
+  CHECK(size <= 20'000'000);
+  CHECK(size > 10'000'000);
+}
+
 TEST_CASE("a page contains the run, and a title cannot end its script") {
   const record::Trajectory run = sample_trajectory();
   const auto page = value_of(to_page(run, "</script><b>bold"));

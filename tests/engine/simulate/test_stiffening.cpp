@@ -207,6 +207,19 @@ TEST_CASE("a pushed joint keeps its depth as braces are added") {
   CHECK(frame.depth_mm == Approx(2).epsilon(1e-6));
 }
 
+TEST_CASE("one unknown cell among known ones is named, and nothing is braced") {
+  Simulation simulation = formed(small_shell(), plan_levels(1e-2));
+  const FootprintCell& known = simulation.scene().footprint.cells.front();
+  preset::Step brace = step(StepKind::brace);
+  brace.cells = {{double(known.i), double(known.j)}, {40, 2}};
+  CHECK(refusal(apply_step(simulation, brace, unwatched), Fault::bad_input) ==
+        "cells: got [40, 2], expected a cell of the footprint");
+  CHECK(simulation.rods().braces.empty());
+  brace.cells.pop_back();
+  done(simulation, brace);
+  CHECK(simulation.rods().braces.size() == 2);
+}
+
 TEST_CASE("what is made stiff too early, or is not there, is named") {
   const auto scene = shared_scene(loaded_shell());
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));

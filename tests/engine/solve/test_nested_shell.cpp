@@ -1,6 +1,8 @@
 // Finer meshes along a path, and their small cost there.
 #include "engine/solve/nested_shell.h"
 
+#include <cmath>
+
 #include "tests/presets.h"
 
 using namespace gridshell;
@@ -114,6 +116,10 @@ TEST_CASE("a finer plan has twice the edges, and at most three meshes") {
   CHECK(plan_levels(1e-3, 5).edges_per_segment == std::vector<int>{10, 20});
   CHECK(plan_levels(1e-3, 4, 2).edges_per_segment == std::vector<int>{8, 16});
   CHECK(plan_levels(1e-4).edges_per_segment == std::vector<int>{4, 8, 16});
+  // no tolerance has finer meshes than finer() allows
+  for (const double tolerance : {1e-9, 0.0, -1.0, std::nan("")})
+    CHECK(plan_levels(tolerance).edges_per_segment.back() <= 128);
+  CHECK(plan_levels(1e-9).edges_per_segment == std::vector<int>{32, 64, 128});
   CHECK(plan_of_mesh(32).edges_per_segment == std::vector<int>{8, 16, 32});
   CHECK(plan_of_mesh(7).edges_per_segment == std::vector<int>{7});
 }

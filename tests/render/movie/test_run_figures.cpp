@@ -230,6 +230,41 @@ TEST_CASE("the largest force is marked if the force then falls") {
   CHECK(plot.series[2].name == "largest force");
 }
 
+TEST_CASE("the largest force is found after a frame without a force") {
+  record::Trajectory run = pushed();
+  run.frames.edit()[0].force_N = NAN;
+  CHECK(test::series_named(force_plot({{&run, "a"}}), "largest force") == nullptr);
+  record::Frame fallen = run.frames.back();
+  fallen.depth_mm = 6, fallen.force_N = 0.05;
+  run.frames.push_back(fallen);
+  const Plot plot = force_plot({{&run, "a"}});
+  REQUIRE(test::series_named(plot, "largest force") != nullptr);
+  CHECK(plot.series[1].x == std::vector<double>{4});
+}
+
+TEST_CASE("the plot of a force reads the scalars of frames alone, and equal long curves are seen") {
+  /// A push of which only the scalars can be read.
+  struct Heads : record::FrameSource {
+    std::vector<record::Frame> frames;
+    std::size_t size() const override { return frames.size(); }
+    const record::Frame* head(std::size_t k) const override { return &frames[k]; }
+    Result<record::Frame> read(std::size_t) const override { return fail(Fault::io, "read"); }
+  };
+  auto source = std::make_shared<Heads>();
+  for (int k = 0; k < 2500; ++k) {
+    record::Frame frame;
+    frame.depth_mm = k, frame.force_N = std::sin(0.002 * k);
+    source->frames.push_back(frame);
+  }
+  source->frames[2400].event = "snap at depth 2399.5 mm";
+  record::Trajectory run;
+  run.frames = record::FrameList(source);
+  const Plot plot = force_plot({{&run, "a"}, {&run, "b"}});
+  CHECK_FALSE(run.frames.fault());
+  CHECK(plot.series[0].x[2399] == 2399);
+  CHECK(plot.series[0].line_width > test::series_named(plot, "b")->line_width);
+}
+
 TEST_CASE("pushed shells have their depth, and the grey shape its name") {
   record::Trajectory run = pushed();
   for (record::Frame& frame : run.frames.edit()) frame.actuation = 1;
