@@ -21,4 +21,29 @@ TEST_CASE("the report of the current folder is next to it", "[standard]") {
   bench.good("run small.toml -o run");
   good("report .", bench.at / "run");
   CHECK(fs::exists(bench.at / "run_report.pdf"));
+  // of a run that was stopped the loads would be those of another shell
+  const fs::path summary = bench.at / "run/summary.json";
+  std::string text = text_of(summary);
+  text.replace(text.find("\"finished\": true"), 16, "\"finished\": false");
+  REQUIRE(write_file(summary, text));
+  check_refused("report run", bench.at, Contains("'run' is not finished"));
+}
+
+TEST_CASE("a file may be next to a run, by any path, and in a folder with a manifest of its own") {
+  const Bench bench(small_preset({}));
+  bench.good("run small.toml -o run");
+  REQUIRE(write_file(bench.at / "manifest.txt", "a list of mine\n"));
+  bench.good("export run --to run/../beside.obj");
+  CHECK(fs::exists(bench.at / "beside.obj"));
+  fs::create_directory_symlink(bench.at / "run", bench.at / "link");
+  check_refused("export run --to link/inside.obj", bench.at, Contains("is in the run folder"));
+}
+
+TEST_CASE("a movie whose pictures were deleted can be made again in its folder") {
+  const Bench bench(small_preset({}));
+  bench.good("movie small.toml --frames 2 -o movie --quiet");
+  for (const fs::path& picture : files_under(bench.at / "movie/frames", ".png"))
+    fs::remove(picture);
+  bench.good("movie small.toml --frames 2 -o movie --quiet");
+  CHECK(files_under(bench.at / "movie/frames", ".png").size() == 2);
 }

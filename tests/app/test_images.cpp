@@ -191,6 +191,11 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   const auto why = value_of(read_file(kept / "WHY.md"));
   CHECK(why.find("a lighter grey (gone.png, in, new.png)") != std::string::npos);
   CHECK(gridshell_program("compare kept now/same.png", folder).code == 2);
+  // a folder named wrongly neither passes nor removes what is saved
+  REQUIRE(make_folder(folder / "empty"));
+  check_refused("compare kept empty --update --why typo", folder, Contains("none of the pictures"));
+  check_refused("compare empty empty", folder, Contains("none of the pictures"));
+  CHECK(compare({}).code == 0);
 }
 
 TEST_CASE("a picture of the pages that cannot be written completely leaves the one before it") {

@@ -121,6 +121,13 @@ TEST_CASE("a job that is queued again needs no if: --resume begins, continues or
   const std::string before = text_of(summary);
   CHECK_THAT(bench.good("run small.toml --resume").out, Contains("out/small: is finished already"));
   CHECK(text_of(summary) == before);
+  // a run that failed says again why
+  const Ended failed = bench.run("run small.toml --set limits.max_strain=1e-6 -o failed --quiet"),
+              again = bench.run(
+                  "run small.toml --set limits.max_strain=1e-6 -o failed --quiet --resume");
+  CHECK(failed.code == 1);
+  CHECK(again.code == 1);
+  CHECK_THAT(again.err, Contains("the path ended early"));
   check_refused("run small.toml --resume --set footprint.spacing_mm=19", bench.at,
                 Contains("'out/small' is a finished run of another command or preset"));
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };

@@ -41,6 +41,8 @@ def test_is_flat_until_it_is_actuated():
     assert np.ptp(session.nodes[:, 2]) == 0
     with pytest.raises(gs.BadInput, match="still flat"):
         session.push((0, 0), 1)
+    with pytest.raises(gs.BadInput, match="still flat"):
+        session.actuate(0, edge_points=[[0, 5, 0, 0]])
     session.actuate(0.3)
     assert session.progress == pytest.approx(0.3)
     assert session.boundary_radius_mm == pytest.approx(63 - 0.3 * 13)

@@ -130,12 +130,16 @@ TEST_CASE("where an entity is, what it may be, and the unit of a drawing") {
   CHECK(drawing.entities[5].use == EntityUse::refused);
   CHECK(drawing.entities[6].use == EntityUse::refused);
   CHECK(read("").unit_mm == 0);
+  CHECK(read("", section("HEADER", "9\n$INSUNITS\n70\n21\n")).unit_mm ==
+        Approx(1200e3 / 3937));  // US survey foot
 }
 
 TEST_CASE("what is no whole drawing is refused") {
   const std::string whole = drawn_dxf(entity("LINE", "10 0 20 0 11 1 21 0"));
   const auto refused = [](const std::string& bytes) { return refusal(read_dxf(bytes, "d.dxf")); };
   CHECK(refused(whole) == "none");
+  CHECK(refused(whole + "\x1a") == "none");
+  CHECK(refused(whole + std::string(200, '\n')) == "none");
   CHECK(refused(whole.substr(0, whole.find("ENDSEC"))).ends_with("is it cut short?"));
   CHECK(refused(whole.substr(0, whole.find("11\n1") + 5)) ==
         "d.dxf: ends within its section ENTITIES: is it cut short?");

@@ -108,6 +108,9 @@ TEST_CASE(
       {"[[step]]\ndo = \"open\"\nangles = [[0.5, 0, 80]]",
        "bad.toml:3:10: [[step]] 1 angles: got [[0.5, 0.0, 80.0]] ([0.5, 0] is no joint), expected "
        "integers"},
+      {"[[step]]\ndo = \"open\"\nangles = [[0, 0, 400]]",
+       "bad.toml:3:10: [[step]] 1 angles: got [[0.0, 0.0, 400.0]] (an angle of 400 degrees), "
+       "expected 1 to 179"},
       {"[[step]]\ndo = \"move\"\nedge_points = [[1, 0, 0, 1], [1, 0, 0, 2]]",
        "bad.toml:3:15: [[step]] 1 edge_points: got [[1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0]] "
        "([1] twice), expected each edge point once"},

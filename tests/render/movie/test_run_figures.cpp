@@ -110,6 +110,13 @@ TEST_CASE("a saddle has one colour, whichever blocks are next to it") {
   const BlockKinds of_two({{&two, ""}}), of_three({{&three, ""}});
   CHECK(of_two.colour("saddle") == of_three.colour("saddle"));
   CHECK_FALSE(of_two.colour("saddle") == of_two.colour("quarter sphere 2"));
+  two.layout.parts.emplace_back().name = "vault";
+  two.layout.parts.emplace_back().name = "dome";
+  const auto keys = BlockKinds({{&two, ""}}).keys();
+  REQUIRE(keys.size() == 4);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other)
+      CHECK_FALSE(keys[k].colour == keys[other].colour);
 }
 
 TEST_CASE("seams with equal gaps and kinks are called equal") {
