@@ -367,7 +367,7 @@ Result<int> make_report(ReportOptions options) {
   for (const Run& run : *runs)
     if (!run.summary.finished)
       return invalid(
-          "'{}' is not finished, and a report is of a whole run: finish it with --resume",
+          "'{}' is not finished, and a report is of a finished run: --resume continues it",
           folder_of(options.input, run.name).string());
   TRY(maker, PictureMaker::create("auto", runs->front().preset.style.font));
   std::vector<Phase> phases;

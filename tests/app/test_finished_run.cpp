@@ -21,7 +21,7 @@ TEST_CASE("the report of the current folder is next to it", "[standard]") {
   bench.good("run small.toml -o run");
   good("report .", bench.at / "run");
   CHECK(fs::exists(bench.at / "run_report.pdf"));
-  // of a run that was stopped the loads would be those of another shell
+  // the loads of a run that was stopped would be those of another shell
   const fs::path summary = bench.at / "run/summary.json";
   std::string text = text_of(summary);
   text.replace(text.find("\"finished\": true"), 16, "\"finished\": false");
