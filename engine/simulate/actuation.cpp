@@ -63,13 +63,12 @@ Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
 /// if the first state is on a branch that bifurcates from it.
 bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch) {
   Simulation& simulation = path.simulation;
-  const Checkpoint here = simulation.save();
   const Report there =
       simulation.sample(first.state.t, path.segments.front().load_steps.back(), false, watch);
   const bool same = there.end == Outcome::reached &&
                     distance_of_joints(simulation, first.state.x) <
                         mesh_tolerances.same_state * simulation.scene().footprint.spacing;
-  simulation.restore(here);
+  simulation.restore(*path.segments.front().path_end);
   return same;
 }
 

@@ -38,14 +38,14 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   event.location = {shell_.plan().edges_per_segment.back(), event.t, located_to()};
   confirm(event);
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
-    events_.push_back(std::move(event));
+    segment_.events.push_back(std::move(event));
     shell_.back_to(end_of_branch);
     shell_.allow_unstable(true);
     return Outcome::reached;
   }
   std::vector<TimedState> moments;
   if (!switch_branch(event, moments)) {
-    events_.push_back(std::move(event));
+    segment_.events.push_back(std::move(event));
     return watch_.cancelled() ? Outcome::cancelled : how;
   }
   if (auto limit = of_.exceeded(limits_)) {
@@ -56,10 +56,10 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   }
   if (record_ && !moments.empty())
     record_->snaps.push_back({record_->load_steps.size() - 1, std::move(moments)});
-  events_.push_back(std::move(event));
-  unmeasured_since_.reset();
-  companion_.reset();
-  step_control_.clear();
+  segment_.events.push_back(std::move(event));
+  segment_.unmeasured_since.reset();
+  segment_.companion.reset();
+  segment_.lowest_stiffness.clear();
   accept();
   return Outcome::reached;
 }
@@ -67,7 +67,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
 void Simulation::Walk::store_companion() {
   const int companion = shell_.last() - 1;
   if (companion >= 0 && shell_.state().measured <= companion)
-    companion_ = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
+    segment_.companion = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
 }
 
 /// Searches for an event of the path on the coarser mesh, from that mesh's last state before it.
@@ -77,12 +77,14 @@ void Simulation::Walk::confirm(Event& event) {
   if (companion < 0) return;
   store_companion();
   event.confirmed = false;
-  if (!companion_) return;
+  if (!segment_.companion) return;
   constexpr double found_to = 5e-5;  // accuracy in the path parameter
   // the last step that was too long may be nearly twice the smallest
   PathFollower path(shell_.system(companion), shell_.motion(companion),
                     {.spacing_mm = scene_.footprint.spacing, .smallest_step = found_to / 2});
-  if (path.start(companion_->time, companion_->state, watch_).end != Outcome::reached) return;
+  if (path.start(segment_.companion->time, segment_.companion->state, watch_).end !=
+      Outcome::reached)
+    return;
   const double past = event.t + std::copysign(shell_.plan().events_apart, to_ - event.t);
   if (path.advance(past, watch_).end == Outcome::reached) return;
   event.confirmed = true;
@@ -183,8 +185,8 @@ double Simulation::Walk::located_to() const {
 Outcome Simulation::Walk::end_at(Event limit) {
   limit.t = now();
   limit.location = {shell_.plan().edges_per_segment.back(), limit.t};
-  events_.push_back(std::move(limit));
-  return outcome_of(events_.back().kind);
+  segment_.events.push_back(std::move(limit));
+  return outcome_of(segment_.events.back().kind);
 }
 
 /// Ends in the last state between `good` and `bad` that exceeds no limit.

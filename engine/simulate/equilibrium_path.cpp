@@ -108,6 +108,7 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
     segment.report.end = outcome_of(begun->kind);
     segment.report.events.push_back(*begun);
   }
+  segment.path_end = simulation.save();
   return path.segments.emplace_back(std::move(segment));
 }
 

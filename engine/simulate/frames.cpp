@@ -319,7 +319,6 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
 }
 
 record::Frame flat_frame(Simulation& simulation) {
-  const Checkpoint before = simulation.save();
   const Report flat = simulation.begin_flat();
   record::Frame frame;
   const Scene& scene = simulation.scene();
@@ -335,7 +334,6 @@ record::Frame flat_frame(Simulation& simulation) {
   // rotate about their axes
   constexpr double nothing_mJ = 1e-15;
   if (std::abs(frame.energies.total()) < nothing_mJ) frame.negative_pivots = 0;
-  simulation.restore(before);
   return frame;
 }
 
@@ -380,6 +378,7 @@ std::vector<record::Frame> frames_in_motion(Simulation& simulation, double t,
     frame.event = "in motion";
     frames.push_back(std::move(frame));
   }
+  shell.apply_loads();
   return frames;
 }
 

@@ -122,6 +122,8 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
   plan.events_apart = mesh_tolerances.same_event;
   TRY_DO(fits_memory(scene, plan));
   std::optional<EquilibriumPath> coarse;
+  Result<void> fits;
+  bool finest = false;  // whether no finer mesh is possible
   for (int doublings = 0;;) {
     auto path = follow(plan, watch);
     if (!path || watch.cancelled()) return path;
@@ -133,8 +135,16 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
     }
     const bool too_coarse = found.too_coarse();
     auto missing = too_coarse ? std::nullopt : not_confirmed(found);
-    if (requested || (!too_coarse && !missing)) {
-      if (missing) found.mesh_disagreement = *missing;
+    if (std::isinf(plan.allowed_mm) || (!too_coarse && !missing)) {
+      const double worst = worst_estimate_mm(found);
+      found.tolerance_missed = finest && !(worst <= allowed);
+      if (found.tolerance_missed)
+        missing = fmt::format(
+            "the tolerance {:g} is not met: {} edges per segment leave an estimated error of "
+            "{:.2g} mm, {:.2g} of the length scale{}{}",
+            scene.tolerance, plan.edges_per_segment.back(), worst, worst / scene.length_scale_mm,
+            where_worst(found), fits ? "" : "; " + fits.error().message);
+      found.mesh_disagreement = missing.value_or("");
       return path;
     }
     // two consecutive meshes agree
@@ -144,31 +154,11 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
       return path;
     }
     const auto next = finer(plan);
-    const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
-    if (missing && (!next || !fits || doublings >= mesh_tolerances.doublings)) {
+    fits = next ? fits_memory(scene, *next) : Result<void>{};
+    finest = !next || !fits;
+    if (missing && (finest || doublings >= mesh_tolerances.doublings)) {
       found.mesh_disagreement = *missing;
       return path;
-    }
-    if (too_coarse && (!next || !fits)) {
-      // the path is followed on the finest possible mesh, with a report of what it misses
-      plan.allowed_mm = std::numeric_limits<double>::infinity();
-      coarse.reset();
-      auto last = follow(plan, watch);
-      if (!last || watch.cancelled()) return last;
-      EquilibriumPath& kept = *last;
-      kept.meshes = plan;
-      kept.simulation.charge(found.simulation.effort());
-      const double worst = worst_estimate_mm(kept);
-      kept.tolerance_missed = worst > allowed || std::isnan(worst);
-      if (kept.tolerance_missed)
-        kept.mesh_disagreement = fmt::format(
-            "the tolerance {:g} is not met: {} edges per segment leave an estimated error of "
-            "{:.2g} mm, {:.2g} of the length scale{}{}",
-            scene.tolerance, plan.edges_per_segment.back(), worst, worst / scene.length_scale_mm,
-            where_worst(kept), fits ? "" : "; " + fits.error().message);
-      else if (auto doubt = not_confirmed(kept))
-        kept.mesh_disagreement = std::move(*doubt);
-      return last;
     }
     if (!too_coarse) ++doublings;
     // only the events and the end of a coarser path are compared
@@ -176,8 +166,9 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
     for (auto* segments : {&found.earlier, &found.segments})
       for (PathSegment& segment : *segments) segment.free_states();
     coarse = std::move(found);
-    plan = *next;
-    plan.allowed_mm = allowed;
+    if (!finest) plan = *next;
+    // on the finest possible mesh the path is followed to its end, with a report of what it misses
+    plan.allowed_mm = finest ? std::numeric_limits<double>::infinity() : allowed;
   }
 }
 

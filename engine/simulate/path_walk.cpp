@@ -16,20 +16,16 @@ constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
 }  // namespace
 
-void StabilityStepControl::add(const NestedState& state) {
-  history_.push_back({state.t, state.lowest_eigenvalue});
-}
-
-bool StabilityStepControl::near_zero() const {
+bool near_zero(const std::vector<simulate::LowestStiffness>& branch) {
   constexpr double low = 0.25;  // over the largest stiffness of the branch
   double largest = 0;
-  for (const simulate::LowestStiffness& one : history_) largest = std::fmax(largest, one.stiffness);
-  return !history_.empty() && history_.back().stiffness < low * largest;
+  for (const simulate::LowestStiffness& one : branch) largest = std::fmax(largest, one.stiffness);
+  return !branch.empty() && branch.back().stiffness < low * largest;
 }
 
-double StabilityStepControl::shortened(double step) const {
-  if (history_.size() < 2) return step;
-  const auto &before = history_.end()[-2], &now = history_.back();
+double shortened_step(const std::vector<simulate::LowestStiffness>& branch, double step) {
+  if (branch.size() < 2) return step;
+  const auto &before = branch.end()[-2], &now = branch.back();
   const double fall = (before.stiffness - now.stiffness) / std::abs(now.t - before.t);
   // also where a stiffness is not known
   if (!(fall > 0)) return step;
@@ -70,7 +66,7 @@ Report Simulation::Walk::all() {
   // the path may be ahead of what is certified
   if (end != Outcome::reached && !at_limit(end)) shell_.back_to(shell_.state());
   Report done = of_.report(end, now(), begin);
-  done.events = std::move(events_);
+  done.events = std::move(segment_.events);
   if (of_.actuating_) of_.set_progress(progress_at(done.t));
   return done;
 }
@@ -90,8 +86,8 @@ void Simulation::Walk::accept() {
   report_position();
   store_companion();
   if (!watches_stability()) return;
-  step_control_.add(shell_.state());
-  if (step_control_.near_zero())
+  segment_.lowest_stiffness.push_back({now(), shell_.state().lowest_eigenvalue});
+  if (near_zero(segment_.lowest_stiffness))
     record_->load_steps.back().stability_confirmed = shell_.stability_confirmed(watch_);
 }
 
@@ -110,11 +106,7 @@ bool Simulation::Walk::resume() {
   segment_ = std::move(*before);
   of_.charge(segment_.effort);
   static_cast<PathRecord&>(*record_) = std::move(segment_.record);
-  events_ = segment_.events;
-  step_control_.set_history(segment_.lowest_stiffness);
-  unmeasured_since_ = segment_.unmeasured_since;
-  companion_ = segment_.companion;
-  const bool stays = std::ranges::any_of(events_, [](const Event& event) {
+  const bool stays = std::ranges::any_of(segment_.events, [](const Event& event) {
     return event.kind == Event::Kind::stability_lost && !event.to;
   });
   shell_.allow_unstable(leaving_.through_unstable || stays);
@@ -130,11 +122,7 @@ void Simulation::Walk::save_segment(std::optional<Outcome> end) {
   if (!saved_ || !saved_->should_save(end.has_value())) return;
   segment_.end = end;
   segment_.state = shell_.state();
-  segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
-  segment_.lowest_stiffness = step_control_.history();
-  segment_.unmeasured_since = unmeasured_since_;
-  segment_.companion = companion_;
   // moved there and back, not copied, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
   saved_->save(segment_);
@@ -145,7 +133,8 @@ void Simulation::Walk::save_segment(std::optional<Outcome> end) {
 
 Outcome Simulation::Walk::step() {
   if (watch_.cancelled()) return Outcome::cancelled;
-  const double left = to_ - now(), longest = step_control_.shortened(of_.load_step());
+  const double left = to_ - now(),
+               longest = shortened_step(segment_.lowest_stiffness, of_.load_step());
   // where the path follower needs short steps, load steps are at most eight times shorter, too
   const double step = std::clamp(shell_.state().step, longest / 8, longest);
   const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
@@ -155,7 +144,7 @@ Outcome Simulation::Walk::step() {
   if (end == Outcome::reached) return accept_step(next, good);
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
   const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;
-  if (!ended || !leaving_.requested || events_.size() >= most) return end;
+  if (!ended || !leaving_.requested || segment_.events.size() >= most) return end;
   return branch_ended(end, next, good);
 }
 
@@ -179,11 +168,11 @@ bool Simulation::Walk::too_coarse() {
   const LevelPlan& plan = shell_.plan();
   if (!std::isfinite(plan.allowed_mm) || !of_.certificate().stable()) return false;
   if (shell_.state().measured < shell_.last()) {
-    unmeasured_since_.reset();
+    segment_.unmeasured_since.reset();
     return of_.certificate().error_estimate_mm > plan.allowed_mm;
   }
-  if (!unmeasured_since_) unmeasured_since_ = now();
-  return std::abs(now() - *unmeasured_since_) > plan.events_apart;
+  if (!segment_.unmeasured_since) segment_.unmeasured_since = now();
+  return std::abs(now() - *segment_.unmeasured_since) > plan.events_apart;
 }
 
 Report Simulation::sample(double t, const LoadStep& nearest, bool unstable, const Watch& watch,

@@ -10,28 +10,13 @@
 
 namespace gridshell {
 
-/// Shortens load steps where the stiffness of the lowest mode decreases towards zero. A branch may
-/// lose its stability and regain it within one step, while the shell would have left it in between:
-/// the steps become short enough to detect that.
-class StabilityStepControl {
- public:
-  /// Adds a load step that was certified.
-  void add(const NestedState& state);
-  /// Clears the history of the path, which continues from another state.
-  void clear() { history_.clear(); }
-  /// The load step to take instead of `step`, at least an eighth of it.
-  double shortened(double step) const;
-  /// Whether the last stiffness is low enough for its error by the mesh to matter.
-  bool near_zero() const;
-  /// The history, for a path that continues later.
-  const std::vector<simulate::LowestStiffness>& history() const { return history_; }
-  void set_history(std::vector<simulate::LowestStiffness> history) {
-    history_ = std::move(history);
-  }
-
- private:
-  std::vector<simulate::LowestStiffness> history_;  // at the load steps of this branch
-};
+/// The load step to take instead of `step`, at least an eighth of it, where the stiffness of the
+/// lowest mode decreases towards zero. A branch may lose its stability and regain it within one
+/// step, while the shell would have left it in between: the steps become short enough to detect
+/// that. `branch`: the stiffness at the load steps of this branch.
+double shortened_step(const std::vector<simulate::LowestStiffness>& branch, double step);
+/// Whether the last stiffness is low enough for its error by the mesh to matter.
+bool near_zero(const std::vector<simulate::LowestStiffness>& branch);
 
 /// Follows one segment of the path: its load steps, its events, and the limit that ends it.
 class Simulation::Walk {
@@ -79,13 +64,8 @@ class Simulation::Walk {
   // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
   bool from_past_limit_ = of_.exceeded_limit().has_value();
-  StabilityStepControl step_control_;
-  std::vector<Event> events_;
-  std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
-  std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
-  // the segment that is saved, as it was after the last step
   simulate::SavedSegments* saved_ = record_ ? of_.context_.segments.get() : nullptr;
-  simulate::SavedSegment segment_;
+  simulate::SavedSegment segment_;  // what was followed; its load steps are in *record_
   Effort effort_before_;
 };
 

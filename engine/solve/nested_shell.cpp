@@ -189,17 +189,6 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
 
 NestedReport NestedShell::sample(double t, const NestedPathPoint& nearest, const Watch& watch,
                                  const NestedPathPoint* across) {
-  struct Memory {  // restores the differences of the path in the end
-    std::vector<std::unique_ptr<Level>>& levels;
-    std::vector<std::vector<MeshDifference>> differences;
-    explicit Memory(std::vector<std::unique_ptr<Level>>& all) : levels(all) {
-      for (const auto& level : all) differences.push_back(level->differences);
-    }
-    ~Memory() {
-      for (std::size_t k = 0; k < levels.size(); ++k)
-        levels[k]->differences = std::move(differences[k]);
-    }
-  } memory(levels_);
   PathFollower path(system(), motion(), options_);
   path.allow_unstable(options_.allow_unstable);
   path.resume(nearest, across);

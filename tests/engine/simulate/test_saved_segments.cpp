@@ -115,15 +115,18 @@ TEST_CASE("a segment that begins elsewhere is none of the run") {
 }
 
 TEST_CASE("the history of the lowest stiffness is complete after a restart") {
-  StabilityStepControl whole, restarted;
-  for (const double stiffness : {10.0, 6.0, 3.0, 2.0}) {
-    NestedState state;
-    state.t = 1 / stiffness;
-    state.lowest_eigenvalue = stiffness;
-    whole.add(state);
-  }
-  CHECK(whole.near_zero());
-  restarted.set_history(whole.history());
-  CHECK(restarted.near_zero());
-  CHECK(restarted.shortened(1) == whole.shortened(1));
+  const TemporaryFolder folder;
+  SavedSegment segment;
+  for (const double stiffness : {10.0, 6.0, 3.0, 2.0})
+    segment.lowest_stiffness.push_back({1 / stiffness, stiffness});
+  CHECK(near_zero(segment.lowest_stiffness));
+  SavedSegments segments(folder, 0);
+  CHECK_FALSE(segments.next(segment.begin));
+  segments.save(segment);
+  const auto restarted = SavedSegments(folder).next(segment.begin);
+  REQUIRE(restarted);
+  CHECK(near_zero(restarted->lowest_stiffness));
+  CHECK(shortened_step(restarted->lowest_stiffness, 1) ==
+        shortened_step(segment.lowest_stiffness, 1));
+  CHECK(shortened_step(segment.lowest_stiffness, 1) < 1);
 }
