@@ -30,7 +30,8 @@ struct PathSegment : PathRecord {
   std::string step = {};      ///< the step as text: "push [0, 0]"; empty: the segment is no step
   bool sampled = false;       ///< whether frames are sampled along its path
   std::string reported = {};  ///< sentence on it in addition to its certificate
-  /// The simulation at the end of its path, if the step changes it further, and after the step.
+  /// The simulation at the end of the segment's path, of a step only if the step changes it
+  /// further, and after the step.
   std::optional<Checkpoint> path_end = {}, after = {};
   /// 1 where the path parameter grows along the segment, -1 where it falls.
   double sign() const { return to < from ? -1 : 1; }

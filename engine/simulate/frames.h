@@ -61,7 +61,8 @@ void complete_shape(const Simulation& simulation, const record::Contacts& contac
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                        const State& state, const Assembly& forces);
 
-/// The flat footprint as a frame at progress 0; straight rods are exact on any mesh.
+/// The flat footprint as a frame at progress 0; straight rods are exact on any mesh. The simulation
+/// is then in that state.
 record::Frame flat_frame(Simulation& simulation);
 
 /// Frames of a snap in time under the loads at path parameter t, at most 24, evenly distributed
