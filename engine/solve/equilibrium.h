@@ -74,8 +74,10 @@ Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& sta
                               const Watch& watch);
 
 /// Finds an equilibrium near `state`: by full Newton steps that displace no node by more than
-/// `farthest_mm` and end in a minimum; else by minimising the energy; else from a saddle along its
-/// lowest mode. Errors: no_equilibrium with the methods that were tried, cancelled.
+/// `farthest_mm` and end in a minimum; if they end in a saddle, along its lowest mode to the side
+/// of `departure`, if that chooses one (its `start` is not empty); else by minimising the energy;
+/// else from a saddle along its lowest mode. Errors: no_equilibrium with the methods that were
+/// tried, cancelled.
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,
                                const Watch& watch, const BranchSwitch& departure = {});
 

@@ -65,9 +65,10 @@ std::vector<std::string> state_captions(const record::Frame& frame);
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                   Drawing& drawing);
 
-/// Adds the supports: balls at supported ends, as in the holes of a plate; for a spring a zigzag
-/// from its node to a ball at the spring's support, at least three balls long; sleeves around the
-/// ends of clamped rods. `supported`: nodes with a reaction in some frame of the run.
+/// Adds the supports: balls at supported nodes, as in the holes of a plate, but not at joints that
+/// are pushed; for a spring a zigzag from its node to a ball at the spring's support, at least
+/// three balls long; sleeves around the ends of clamped rods. `supported`: nodes with a reaction in
+/// some frame of the run; if there are none, the ends on a boundary that is shown have balls.
 void put_supports(const record::Layout& layout, const record::Frame& frame,
                   const std::set<int>& supported, const Appearance& look, Drawing& drawing);
 
