@@ -41,13 +41,18 @@ Result<std::optional<render::Image>> picture(const fs::path& folder, const fs::p
 }
 
 /// All PNG files of both folders and the folders in them, by their path in the folder, in order;
-/// with `selected` those of `before` alone.
+/// with `selected` those of `before` alone, without the folders in it that `after` does not have.
 Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before, const fs::path& after,
                                                      bool selected) {
   TRY(old_names, names_in(before));
   TRY(new_names, names_in(after));
   std::set<fs::path> all = *old_names;
   if (!selected) all.insert(new_names->begin(), new_names->end());
+  // of runs that were not made again nothing is known: `update` must not remove their pictures
+  if (selected)
+    std::erase_if(all, [&](const fs::path& name) {
+      return name.has_parent_path() && !fs::is_directory(after / *name.begin());
+    });
   std::vector<render::PicturePair> pairs;
   for (const fs::path& name : all) {
     TRY(a, picture(before, name, *old_names));
@@ -140,6 +145,10 @@ Result<bool> compare_folders(const CompareOptions& options) {
 }
 
 Result<int> compare(const CompareOptions& options) {
+  std::error_code unknown;
+  for (const std::string& given : {options.a, options.b})
+    if (fs::status(given, unknown).type() == fs::file_type::not_found)
+      return invalid("'{}' does not exist", given);
   const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   if (a != b)
     return invalid("'{}' is a folder and '{}' is none: compare two pictures or two folders",
@@ -165,7 +174,7 @@ void add_compare(CommandLine& program) {
   command.option("--difference", options.difference,
                  "PNG to write, differences in red; of folders a sheet of all that differ");
   command.flag("--selected", options.selected,
-               "of folders only the pictures in A: B may have more");
+               "of folders only the pictures in A, without its folders that B does not have");
   command.flag("--update", options.update, "replace A's pictures by B's");
   command.option("--why", options.why, "with --update: the reason, saved in A/WHY.md");
 }

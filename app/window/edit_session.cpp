@@ -190,10 +190,18 @@ Result<void> EditSession::set_preset_push() {
 }
 
 Result<void> EditSession::act(const Open& command, const Watch& watch) {
-  found_.clear();
-  last_found_.reset();
-  view_.found.reset();
-  return form(command.preset, watch);
+  const auto before = now_.scene;
+  auto found = std::exchange(found_, {});
+  auto last = std::exchange(last_found_, {});
+  auto seen = std::exchange(view_.found, {});
+  auto formed = form(command.preset, watch);
+  // the shell from before is still there, and so are its states
+  if (!formed && now_.scene == before) {
+    found_ = std::move(found);
+    last_found_ = std::move(last);
+    view_.found = std::move(seen);
+  }
+  return formed;
 }
 
 Result<void> EditSession::act(const Change& command, const Watch& watch) {

@@ -107,15 +107,17 @@ void Picker::press(Button button, bool shift, double x, double y) {
 
 /// Ends what is dragged if a shell without it has come meanwhile.
 void Picker::check_dragged() {
-  const record::Layout& layout = *viewer_.shell->layout;
-  if (joint_ < int(layout.joints.size()) && edge_ < int(layout.edge_points.size())) return;
+  const bool any = viewer_.shell->any();
+  const int joints = any ? int(viewer_.shell->layout->joints.size()) : 0,
+            edge_points = any ? int(viewer_.shell->layout->edge_points.size()) : 0;
+  if (joint_ < joints && edge_ < edge_points) return;
   joint_ = edge_ = -1;
   gesture_ = Gesture::pick;
 }
 
 void Picker::drag(double x, double y) {
   if (!pressed_) return;
-  if (viewer_.shell->any()) check_dragged();
+  check_dragged();
   const double dx = x - last_x_, dy = y - last_y_, from_x = x - begin_x_, from_y = y - begin_y_;
   if (!moved_ && std::hypot(from_x, from_y) < click_px) return;
   if (dx == 0 && dy == 0) return;
@@ -157,7 +159,7 @@ void Picker::drag(double x, double y) {
 
 void Picker::release(double x, double y) {
   if (!pressed_) return;
-  if (viewer_.shell->any()) check_dragged();
+  check_dragged();
   pressed_ = false;
   const bool at_shell = gesture_ == Gesture::push || gesture_ == Gesture::pull_freely ||
                         gesture_ == Gesture::drag_edge;

@@ -99,8 +99,9 @@ class PlotBox {
   void draw_bars(const std::vector<ImVec2>& points, float zero) {
     const float half = 0.35f * (to_.x - from_.x) / float(points.size());
     for (const ImVec2& p : points)
-      list_.AddRectFilled({p.x - half, std::min(p.y, zero)}, {p.x + half, std::max(p.y, zero)},
-                          ink());
+      if (std::isfinite(p.y))
+        list_.AddRectFilled({p.x - half, std::min(p.y, zero)}, {p.x + half, std::max(p.y, zero)},
+                            ink());
     list_.AddLine({from_.x, zero}, {to_.x, zero}, pale());
   }
   void draw_line(const std::vector<ImVec2>& points, const Curve& curve, ImU32 colour) {
@@ -181,13 +182,15 @@ class PlotBox {
       list_.AddText({left, y}, pale(), text.c_str());
     }
   }
-  /// Shows the values of the point nearest to the mouse.
+  /// Shows the values of the known point nearest to the mouse.
   void show_nearest(const Curve& curve, const std::vector<ImVec2>& points) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const bool menu = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     if (menu || !ImGui::IsMouseHoveringRect(from_, to_) || ImGui::IsAnyMouseDown()) return;
-    const auto next = std::ranges::min_element(
-        points, {}, [&](const ImVec2& p) { return std::abs(p.x - mouse.x); });
+    const auto next = std::ranges::min_element(points, {}, [&](const ImVec2& p) {
+      return std::isfinite(p.x + p.y) ? std::abs(p.x - mouse.x) : INFINITY;
+    });
+    if (!std::isfinite(next->x + next->y)) return;
     const auto k = std::size_t(next - points.begin());
     list_.AddCircle(*next, panel_.px(4), ImGui::GetColorU32(ImGuiCol_Text), 0, panel_.px(1.4));
     std::string reported =
@@ -272,8 +275,8 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
 Curve bins_of(const ShellView& shell) {
   Curve curve{"mean K□ of cells (rad)", "x/L", "no cells", {}, {}, true};
   const auto& bins = shell.frame.K_bins;
-  for (Eigen::Index k = 0; shell.any() && k < bins.rows(); ++k) {
-    if (!std::isfinite(bins(k, 0))) continue;
+  if (!shell.any() || !bins.leftCols(1).array().isFinite().any()) return curve;
+  for (Eigen::Index k = 0; k < bins.rows(); ++k) {  // a bin without cells is unknown
     curve.x.push_back(-1 + (2 * float(k) + 1) / float(bins.rows()));
     curve.y.push_back(float(bins(k, 0)));
   }

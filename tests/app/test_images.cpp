@@ -195,7 +195,15 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   REQUIRE(make_folder(folder / "empty"));
   check_refused("compare kept empty --update --why typo", folder, Contains("none of the pictures"));
   check_refused("compare empty empty", folder, Contains("none of the pictures"));
+  check_refused("compare kept nothing", folder, Contains("'nothing' does not exist"));
   CHECK(compare({}).code == 0);
+  // of runs, one that was not made again is neither different nor removed
+  REQUIRE(make_folder(kept / "run"));
+  REQUIRE(render::write_png(paint(90), kept / "run/frame.png"));
+  CHECK(compare({"--selected", "--update", "--why", "one run of two"}).code == 0);
+  CHECK(fs::exists(kept / "run/frame.png"));
+  CHECK(compare({"--update", "--why", "all runs"}).code == 0);
+  CHECK_FALSE(fs::exists(kept / "run/frame.png"));
 }
 
 TEST_CASE("a picture of the pages that cannot be written completely leaves the one before it") {
