@@ -167,6 +167,11 @@ Result<void> check_output_file(const fs::path& to) {
   std::error_code error;
   if (fs::exists(to, error) && !fs::is_regular_file(to, error))
     return invalid("'{}' is no file that could be written", to.string());
+  fs::path folder = fs::absolute(to, error).parent_path();
+  while (folder.has_relative_path() && !fs::exists(folder, error)) folder = folder.parent_path();
+  if (!fs::is_directory(folder, error) || ::access(folder.c_str(), W_OK) != 0)
+    return invalid("'{}' cannot be written: '{}' is no folder in which files can be made",
+                   to.string(), folder.string());
   return check_outside_runs(to);
 }
 

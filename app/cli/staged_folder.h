@@ -37,7 +37,8 @@ std::filesystem::path next_to(const std::filesystem::path& folder, const std::st
 /// Checks that the file or folder `to` is not in the folder of a run, which could then no longer be
 /// replaced. Errors: bad_input.
 Result<void> check_outside_runs(const std::filesystem::path& to);
-/// check_outside_runs() for a file, whose name nothing but a file may have. Errors: bad_input.
+/// check_outside_runs() for a file, whose name nothing but a file may have, in a folder that can be
+/// written or made. Errors: bad_input.
 Result<void> check_output_file(const std::filesystem::path& to);
 
 // A run's folder while it is written: under a temporary name, exchanged with the final one only

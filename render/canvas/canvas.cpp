@@ -290,6 +290,9 @@ Result<Image> draw_picture(double width, double height, double pixels_per_unit, 
   Canvas canvas(cairo.get(), width, height);
   canvas.set_paper(background);
   draw(canvas);
+  // such as a coordinate that is not a number: Cairo then draws nothing more
+  if (const cairo_status_t status = cairo_status(cairo.get()); status != CAIRO_STATUS_SUCCESS)
+    return fail(Fault::io, "cannot draw the picture: {}", cairo_status_to_string(status));
   cairo_surface_flush(surface.get());
   const unsigned char* data = cairo_image_surface_get_data(surface.get());
   const int stride = cairo_image_surface_get_stride(surface.get());

@@ -362,6 +362,9 @@ TEST_CASE("report puts a run into one PDF, with what it carries and how it sways
                 Contains("choose a folder outside it"));
   check_refused("report out/small --to report.txt", bench.at,
                 Contains("expected a name that ends in .pdf"));
+  // before the studies, which take long
+  check_refused("report out/small --to small.toml/report.pdf", bench.at,
+                Contains("is no folder in which files can be made"));
   check_refused("report out/none", bench.at, Contains("out/none"));
 }
 

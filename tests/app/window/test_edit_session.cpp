@@ -364,6 +364,14 @@ TEST_CASE("a state that was found near another one is recalled, as one step") {
   CHECK(shell.view().found->size() == 2);
   shell.act(Undo{});
   CHECK(shell.bending_mJ() == Approx(first.frame.energies[Term::bend]).epsilon(1e-9));
+  // a preset that cannot be opened leaves the states
+  preset::Preset wrong = first.preset;
+  wrong.footprint.radius_mm = 1;
+  CHECK(shell.attempt(Open{wrong}) != "");
+  REQUIRE(shell.view().found);
+  CHECK(shell.view().found->size() == 2);
+  shell.act(Recall{1});
+  CHECK(shell.bending_mJ() == Approx(other_mJ).epsilon(1e-9));
 }
 
 TEST_CASE("a command that cannot be met leaves the last good shell and says why") {
