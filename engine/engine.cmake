@@ -24,7 +24,7 @@ add_custom_command(OUTPUT ${embedded_page}
 file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
 set(light_sources ${engine_sources})
 list(FILTER light_sources INCLUDE REGEX "/(design|formats|preset|record|scene|simulate|study)/")
-list(FILTER light_sources EXCLUDE REGEX "contacts|frames_between|frame_forces|shape_measures")
+list(FILTER light_sources EXCLUDE REGEX "cholmod_solver|contacts|frames_between|frame_forces|shape_measures")
 list(REMOVE_ITEM engine_sources ${light_sources} ${PROJECT_SOURCE_DIR}/engine/core/version.cpp)
 
 # two small files make the precompiled headers of both kinds, so that nothing else waits for long

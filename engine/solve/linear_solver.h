@@ -88,18 +88,6 @@ std::unique_ptr<LinearSolver> make_linear_solver(const Model& model);
 /// pattern and the matrix of rank one.
 std::unique_ptr<LinearSolver> make_block_cholesky(const Model& model);
 
-/// How CHOLMOD factorises, and in which order.
-struct CholmodOptions {
-  /// L L^T; where that fails, simplicial L D L^T counts the negative pivots
-  bool supernodal = true;
-  /// nested_dissection(); false: CHOLMOD's own nested dissection (METIS)
-  bool own_ordering = true;
-};
-
-/// CHOLMOD [Chen, Davis, Hager, Rajamanickam 2008], for comparison with make_block_cholesky(). It
-/// ignores the same parts of the Hessian.
-std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOptions& options = {});
-
 /// `block` at row `row` and column `column` of the model with the constrained rows and columns set
 /// to zero, and one on the diagonal.
 Eigen::Matrix3d without_fixed(const Model& model, int row, int column,

@@ -8,6 +8,7 @@
 #include "engine/elastic/model.h"
 #include "engine/scene/net_design.h"
 #include "engine/solve/buckling.h"
+#include "engine/study/cholmod_solver.h"
 
 namespace gridshell::study {
 namespace {

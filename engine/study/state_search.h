@@ -9,7 +9,7 @@
 #include "engine/preset/preset.h"
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/simulation.h"
-#include "engine/solve/multilevel_relaxation.h"
+#include "engine/study/multilevel_relaxation.h"
 
 namespace gridshell::study {
 

@@ -9,7 +9,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
-#include "engine/solve/mountain_pass.h"
+#include "engine/study/mountain_pass.h"
 #include "engine/study/state_library.h"
 
 namespace gridshell::study {

@@ -12,8 +12,9 @@
 #include "engine/elastic/model.h"
 #include "engine/simulate/run.h"
 #include "engine/solve/buckling.h"
-#include "engine/solve/multilevel_relaxation.h"
 #include "engine/solve/nested_shell.h"
+#include "engine/study/cholmod_solver.h"
+#include "engine/study/multilevel_relaxation.h"
 #include "tests/bench/figures.h"
 
 using namespace gridshell;

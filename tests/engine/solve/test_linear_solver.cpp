@@ -4,6 +4,7 @@
 #include "engine/elastic/model.h"
 #include "engine/solve/block_factor.h"
 #include "engine/solve/newton.h"
+#include "engine/study/cholmod_solver.h"
 #include "tests/engine/elastic/bent_dome.h"
 
 using namespace gridshell;

@@ -1,3 +1,5 @@
+#include "engine/study/cholmod_solver.h"
+
 #include <cholmod.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <new>
 
 #include "engine/elastic/model.h"
-#include "engine/solve/linear_solver.h"
 
 namespace gridshell {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/solve/multilevel_relaxation.h"
+#include "engine/study/multilevel_relaxation.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "engine/solve/mountain_pass.h"
+#include "engine/study/mountain_pass.h"
 
 #include <algorithm>
 #include <cmath>

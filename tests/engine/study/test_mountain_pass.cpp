@@ -1,4 +1,4 @@
-#include "engine/solve/mountain_pass.h"
+#include "engine/study/mountain_pass.h"
 
 #include "engine/elastic/model.h"
 #include "tests/engine/solve/rod_cases.h"

@@ -1,5 +1,5 @@
 // Equilibria from rough states over meshes of increasing fineness, and their stiffness.
-#include "engine/solve/multilevel_relaxation.h"
+#include "engine/study/multilevel_relaxation.h"
 
 #include <random>
 
