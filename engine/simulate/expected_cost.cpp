@@ -81,18 +81,16 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
 namespace gridshell::simulate {
 namespace {
 
-/// Seconds of one assembly and of one factorisation of the flat shell on the coarsest mesh; 0: the
-/// rod model does not support the rods.
+/// Seconds of one assembly and of one factorisation of the flat shell on a mesh; 0: the rod model
+/// does not support the rods.
 struct UnitCost {
   double assembly = 0, factorisation = 0;
+
+  double both() const { return assembly + factorisation; }
 };
 
-UnitCost unit_cost(const Scene& scene, int edges) {
+UnitCost measured_cost(const Scene& scene, int edges) {
   constexpr int trials = 3;
-  // a mesh too large to be measured takes as long as 96 and 192 rods per direction with version 0.2
-  constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
-  const double unknowns = unknowns_of(scene.footprint, scene.rod_model, edges);
-  if (unknowns > large) return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
   MeshLevel level;
   if (!level.build(scene.footprint, scene.rods, scene.solved_model(), scene.motion, edges))
     return {};
@@ -103,7 +101,7 @@ UnitCost unit_cost(const Scene& scene, int edges) {
     level.system->at(flat, false);
     const double assembled = cpu_seconds_now();
     level.system->shifted(0);
-    both.push_back(assembled - begin);
+    both.push_back(cpu_seconds_now() - begin);
     factorisation.push_back(cpu_seconds_now() - assembled);
   }
   // the first trial also plans the factorisation, and other programs only add time
@@ -111,11 +109,27 @@ UnitCost unit_cost(const Scene& scene, int edges) {
   return {std::max(0.0, std::ranges::min(both) - factor), factor};
 }
 
-/// Number of factorisations per mesh for a path, as measured on the shipped presets: from a net;
-/// from the flat state on branches that symmetry chooses; and on branches that the imperfection
-/// chooses, of which curves and nets have several.
+/// The cost of a mesh of `edges` by those of the coarsest one and of twice its edges: beside that
+/// of the joints, which all meshes have, it is proportional to the edges.
+UnitCost unit_cost(const Scene& scene, int coarsest, int edges) {
+  // a mesh too large to be measured takes as long as 96 and 192 rods per direction with version 0.2
+  constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
+  const double unknowns = unknowns_of(scene.footprint, scene.rod_model, edges);
+  if (unknowns_of(scene.footprint, scene.rod_model, coarsest) > large)
+    return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
+  const UnitCost one = measured_cost(scene, coarsest);
+  if (edges == coarsest) return one;
+  const UnitCost two = measured_cost(scene, 2 * coarsest);
+  const double times = double(edges) / coarsest - 1;
+  return {one.assembly + times * std::max(0.0, two.assembly - one.assembly),
+          one.factorisation + times * std::max(0.0, two.factorisation - one.factorisation)};
+}
+
+/// Time of a path in factorisations of its finest mesh, as measured on the shipped presets: from a
+/// net; from the flat state on branches that symmetry chooses; and on branches that the
+/// imperfection chooses, of which curves and nets have several.
 double factorisations_of(const Scene& scene, const preset::Footprint& footprint) {
-  constexpr double from_net = 50, from_flat = 75, chosen = 200, curves = 600, nets = 900;
+  constexpr double from_net = 130, from_flat = 300, chosen = 90, curves = 600, nets = 900;
   if (scene.from_net) return from_net;
   if (!scene.imperfection.chooses()) return from_flat;
   using Kind = preset::FootprintKind;
@@ -143,13 +157,11 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   }
   // per frame: corrections on the coarsest mesh; the report of the finest one takes as long as some
   // assemblies there
-  constexpr double corrections = 1.3, tellings = 4.9, start_s = 0.02;
+  constexpr double corrections = 1.3, tellings = 4.9, start_s = 0.04;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
-  const UnitCost unit = unit_cost(scene, edges.front());
-  const double all = std::accumulate(edges.begin(), edges.end(), 0.0) / edges.front(),
-               finest = double(edges.back()) / edges.front();
-  const double frame =
-      tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
+  const UnitCost coarse = unit_cost(scene, edges.front(), edges.front()),
+                 fine = unit_cost(scene, edges.front(), edges.back());
+  const double frame = tellings * fine.assembly + corrections * coarse.both();
   // a chosen branch is confirmed on meshes of twice the edges; bolts and braces are added in
   // equilibrium, on new meshes
   constexpr double build = 15;  // takes as long as so many factorisations
@@ -172,8 +184,8 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   const int frames =
       shares.empty() ? preset.movie.frames : std::accumulate(shares.begin(), shares.end(), 1);
   return start_s + frame * frames +
-         (paths * factorisations_of(scene, preset.footprint) + build * double(builds)) * all *
-             (unit.assembly + unit.factorisation);
+         (paths * factorisations_of(scene, preset.footprint) + build * double(builds)) *
+             fine.both();
 }
 
 double expected_GB(double meshes_GB, const preset::Preset& preset) {
