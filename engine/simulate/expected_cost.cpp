@@ -109,8 +109,8 @@ UnitCost measured_cost(const Scene& scene, int edges) {
   return {std::max(0.0, std::ranges::min(both) - factor), factor};
 }
 
-/// The cost of a mesh of `edges` by those of the coarsest one and of twice its edges: beside that
-/// of the joints, which all meshes have, it is proportional to the edges.
+/// The cost of a mesh of `edges`, from those of the coarsest one and of twice its edges: a part for
+/// the joints, which all meshes have, and a part in proportion to the edges.
 UnitCost unit_cost(const Scene& scene, int coarsest, int edges) {
   // a mesh too large to be measured takes as long as 96 and 192 rods per direction with version 0.2
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
