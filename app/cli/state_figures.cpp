@@ -97,7 +97,8 @@ render::Plot energies_plot(const record::StateTables& states) {
   return plot;
 }
 
-render::Plot lives_plot(const record::StateTables& states) {
+/// `radius_mm`: radius of the boundary at the end of the path, if it is a circle.
+render::Plot lives_plot(const record::StateTables& states, double radius_mm) {
   render::Plot plot;
   plot.title = "Range in which the states exist";
   plot.x = {.label = "elastic energy at the end of the path (mJ)"};
@@ -114,7 +115,15 @@ render::Plot lives_plot(const record::StateTables& states) {
   if (known.size() < states.rows.size())
     plot.title += fmt::format("\nthat of {} of the {} states is not known",
                               states.rows.size() - known.size(), states.rows.size());
+  // a line over each state's range, down to the end of the path
+  render::Series ranges{.colour = render::grey(0.6), .line_width = 0.8};
+  for (const StateRow& row : known) {
+    ranges.add(row.energy_mJ(), end_of(row));
+    ranges.add(row.energy_mJ(), circle ? radius_mm : 1);
+    ranges.part();
+  }
   plot.series = by_class(known, end_of);
+  plot.series.insert(plot.series.begin(), std::move(ranges));
   return plot;
 }
 
@@ -190,7 +199,7 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
     stills.title += fmt::format(" ({} of {} states)", which.size(), states.rows.size());
   TRY_DO(render::write_stills(drawn, stills, {}, renderer, stem, watch, captions));
   TRY_DO(plot_at("_energies", energies_plot(states)));
-  TRY_DO(plot_at("_lives", lives_plot(states)));
+  TRY_DO(plot_at("_lives", lives_plot(states, one.trajectory.frames.back().boundary_radius_mm)));
   if (!states.transitions.empty())
     TRY_DO(render::write_transition_graph(fs::path(stem) += "_transitions", states, one.trajectory,
                                           style.title, style.print));

@@ -55,9 +55,8 @@ class PlotBox {
     std::vector<float> heights;
     for (const auto* values : {&curve.y, &curve.second})
       for (const float value : *values) heights.push_back(shown(value));
-    Span y(heights);
-    // bars start at zero
-    if (curve.bars) y = Span(std::min(0.f, y.low), std::max(0.f, y.high));
+    if (curve.bars) heights.push_back(0);  // where they start
+    const Span y(heights);
     const auto points_of = [&](const std::vector<float>& values) {
       std::vector<ImVec2> points;
       for (std::size_t k = 0; k < values.size(); ++k)

@@ -288,7 +288,8 @@ void notice(const Panel& panel, const render::Box& line, float room) {
   const auto& offer = viewer.shell->offer;
   const bool fits = ImGui::CalcTextSize(viewer.message.c_str()).x <= room;
   if (!viewer.message_bad || viewer.file_request || (fits && !offer)) return;
-  ImGui::SetNextWindowPos({float(line.middle().x), float(line.y) - panel.px(40)}, ImGuiCond_Always,
+  // above the row of the scale bar
+  ImGui::SetNextWindowPos({float(line.middle().x), float(line.y) - panel.px(76)}, ImGuiCond_Always,
                           {0.5f, 1});
   ImGui::Begin("notice", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |

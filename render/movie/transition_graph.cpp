@@ -101,7 +101,7 @@ class TransitionGraph {
     plot.font_size = font;
     plot.legend = LegendPosition::none;
     plot.x = {.label = "height (mm)"};
-    plot.y = {.label = "energy (mJ)"};
+    plot.y = {.label = "elastic energy (mJ)"};
     Series all;
     for (const Node& node : nodes_) all.add(node.row->height_mm, node.row->energy_mJ());
     // a margin as wide as a node, also if all values are equal
