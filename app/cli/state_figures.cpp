@@ -116,7 +116,7 @@ render::Plot lives_plot(const record::StateTables& states, double radius_mm) {
     plot.title += fmt::format("\nthat of {} of the {} states is not known",
                               states.rows.size() - known.size(), states.rows.size());
   // a line over each state's range, down to the end of the path
-  render::Series ranges{.colour = render::grey(0.6), .line_width = 0.8};
+  render::Series ranges{.name = "", .colour = render::grey(0.6), .line_width = 0.8};
   for (const StateRow& row : known) {
     ranges.add(row.energy_mJ(), end_of(row));
     ranges.add(row.energy_mJ(), circle ? radius_mm : 1);
