@@ -145,11 +145,11 @@ Result<bool> compare_folders(const CompareOptions& options) {
 }
 
 Result<int> compare(const CompareOptions& options) {
+  const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   std::error_code unknown;
   for (const std::string& given : {options.a, options.b})
-    if (fs::status(given, unknown).type() == fs::file_type::not_found)
+    if (a != b && fs::status(given, unknown).type() == fs::file_type::not_found)
       return invalid("'{}' does not exist", given);
-  const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   if (a != b)
     return invalid("'{}' is a folder and '{}' is none: compare two pictures or two folders",
                    a ? options.a : options.b, a ? options.b : options.a);

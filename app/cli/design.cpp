@@ -264,9 +264,12 @@ Result<void> draw_design(Run before, Run after, const DesignResult& found, const
 // joints of two runs that end in the same state differ by less than this many tolerances
 constexpr double same_state = 4;
 
-/// The preset of the shell to be designed. Errors: bad_input for a preset of several cases.
+/// The preset of the shell to be designed: of the formed shell, without what is done to it later.
+/// Errors: bad_input for a preset of several cases.
 Result<preset::Preset> one_of(const Options& options) {
   TRY(presets, load(options));
+  presets->base.indentation = {};
+  presets->base.step.clear();
   if (presets->cases.empty()) return presets->base;
   return invalid("{}: a preset of several cases; design takes one shell", presets->base.name);
 }

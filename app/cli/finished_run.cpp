@@ -275,6 +275,12 @@ Result<int> render(const Options& options, bool no_checksum) {
   // replace it
   std::string maker = maker_of(options.input);
   if (maker.empty()) maker = word_of(runs->front().summary.kind);
+  std::error_code other;
+  if (maker == "design" && fs::equivalent(options.input, folder, other))
+    return invalid(
+        "'{}' has pictures of a design, of which 'gridshell render' draws the last state alone, "
+        "expected another folder: -o",
+        options.input);
   TRY_DO(deliver({folder, maker}, drawing_phases(*runs), options.quiet,
                  [&](const fs::path& partial, Progress& progress) {
                    return render_runs(*runs, options, partial, progress);

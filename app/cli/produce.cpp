@@ -212,11 +212,11 @@ void print_forces(const record::Summary& at, const record::Layout& layout) {
 void print_strength(const record::Summary& at, const preset::Limits& limits) {
   constexpr double worth_reporting = 0.01;
   if (std::isfinite(at.utilisation))
-    return fmt::print("\n  {}: {:.4g} MPa in a fibre of {}",
+    return fmt::print("\n  {}, in {}; the largest stress is {:.4g} MPa",
                       at.utilisation > 1
                           ? at.breaking()
                           : fmt::format("stress at most {:.3g} of the strength", at.utilisation),
-                      at.largest_stress_MPa, at.stress_at);
+                      at.stress_at, at.largest_stress_MPa);
   if (limits.max_bending_strain > 0 || !(at.largest_bending_strain >= worth_reporting)) return;
   fmt::print(
       "\n  bending strains a rod by {:.2g} % ({}): most materials do not bear 1 %, superelastic "

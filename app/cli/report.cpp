@@ -134,7 +134,10 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
                            ? fmt::format("{:.2f}", summary.utilisation)
                            : "not known"},
        {"largest bending strain", fmt::format("{:.2f} %", 100 * summary.largest_bending_strain)}});
-  if (!summary.stress_at.empty()) sheets.text("It is largest in " + summary.stress_at + ".");
+  if (!summary.stress_at.empty())
+    sheets.text((std::isfinite(summary.utilisation) ? "The utilisation is largest in "
+                                                    : "The stress is largest in ") +
+                summary.stress_at + ".");
   if (const std::string text = summary.breaking(); !text.empty()) sheets.text(text + ".");
   if (!std::isfinite(summary.utilisation))
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
@@ -368,6 +371,12 @@ Result<int> make_report(ReportOptions options) {
     if (!run.summary.finished)
       return invalid(
           "'{}' is not finished, and a report is of a finished run: --resume continues it",
+          folder_of(options.input, run.name).string());
+  for (const Run& run : *runs)
+    if (run.preset.jitter.requested())
+      return invalid(
+          "'{}' has several states of a shell, and a report is of one: expected a run without "
+          "[jitter]",
           folder_of(options.input, run.name).string());
   TRY(maker, PictureMaker::create("auto", runs->front().preset.style.font));
   std::vector<Phase> phases;

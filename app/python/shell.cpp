@@ -33,7 +33,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::reached) return Done{std::move(report)};
   return fail(Fault::no_equilibrium,
               "{}: {}; it is in the last certified state, at progress {:.4g}", what,
-              words_of(report.end).what, session_->boundary.progress);
+              words_of(report.end).what, session_->progress());
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
@@ -136,7 +136,7 @@ Result<State> Shell::look() {
               formed_ ? simulate::frame_of(*session_) : simulate::flat_frame(*session_),
               {}};
   record::Frame& frame = state.frame;
-  frame.progress = frame.actuation = session_->boundary.progress;
+  frame.progress = frame.actuation = session_->progress();
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
   session_->put_push(frame);
   state.certificate = session_->certificate();

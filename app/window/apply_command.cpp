@@ -131,12 +131,12 @@ bool EditSession::resists(const Eigen::Vector3d& to) {
 void EditSession::add_step(preset::Step step, const Report& report) {
   if (report.end != Outcome::reached) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
-    step.progress = session_->boundary.progress;
+    step.progress = session_->progress();
     if (step.kind == preset::StepKind::push)
       if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
-  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->boundary.dragged);
+  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->dragged());
   const bool eventful = !report.events.empty() || !view_.event.empty();
   const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
                     !eventful && !last_eventful_ && continues(*now_.steps.back(), step);
@@ -155,29 +155,29 @@ Result<void> EditSession::move_boundary(double progress, const Eigen::Matrix3Xd&
 }
 
 Result<void> EditSession::act(const Move& command, const Watch& watch) {
-  return move_boundary(std::max(command.progress, view_.least_progress), session_->boundary.dragged,
+  return move_boundary(std::max(command.progress, view_.least_progress), session_->dragged(),
                        watch);
 }
 
 Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
-  Eigen::Matrix3Xd dragged = session_->boundary.dragged;
+  Eigen::Matrix3Xd dragged = session_->dragged();
   const Eigen::Index k = command.edge_point;
   if (k < 0 || k >= dragged.cols()) return invalid("no such edge point");
   const BoundaryMotion& motion = now_.scene->motion;
-  const double progress = session_->boundary.progress;
+  const double progress = session_->progress();
   dragged.col(k) = command.to - motion.begin.col(k) - progress * (motion.end - motion.begin).col(k);
-  if ((dragged - session_->boundary.dragged).norm() < nearest_mm) return {};
+  if ((dragged - session_->dragged()).norm() < nearest_mm) return {};
   return move_boundary(progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch) {
-  Eigen::Matrix3Xd dragged = session_->boundary.dragged;
+  Eigen::Matrix3Xd dragged = session_->dragged();
   if (command.edge_point < 0)
     dragged.setZero();
   else if (command.edge_point < dragged.cols())
     dragged.col(command.edge_point).setZero();
-  if (dragged == session_->boundary.dragged) return invalid("no such edge point was dragged");
-  return move_boundary(session_->boundary.progress, dragged, watch);
+  if (dragged == session_->dragged()) return invalid("no such edge point was dragged");
+  return move_boundary(session_->progress(), dragged, watch);
 }
 
 Result<void> EditSession::act(const Push& command, const Watch& watch) {

@@ -142,7 +142,7 @@ std::string EditSession::note_path(const preset::Step& step, const simulate::Pat
   // the marks of a branch do not apply to another one
   const auto lost = [](const PathMark& mark) { return mark.unstable; };
   if ((snapped || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
-    const double at = session_->boundary.progress;
+    const double at = session_->progress();
     now_.path_left = fmt::format("{} at {}", moves || pushes ? "a snap" : word_of(step.kind),
                                  position_text({at, at}));
   }
@@ -181,7 +181,7 @@ bool EditSession::FoundState::same_as(const FoundState& other) const {
 /// Stores an equilibrium if another one of the same boundary was found before.
 void EditSession::note_state() {
   if (!view_.stable() || !session_->constraints().empty() || only_coarse_mesh_ || now_.design ||
-      !session_->boundary.dragged.isZero(0))
+      !session_->dragged().isZero(0))
     return;
   FoundState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
   const auto is_here = [&](const FoundState& one) { return one.same_as(here); };

@@ -93,8 +93,8 @@ void EditSession::update_view() {
   update_layout();
   if (!s.layout) return;
   s.frame = simulate::frame_of(*session_);
-  s.frame.progress = s.frame.actuation = s.progress = session_->boundary.progress;
-  s.frame.boundary_radius_mm = now_.scene->radius_at(session_->boundary.progress);
+  s.frame.progress = s.frame.actuation = s.progress = session_->progress();
+  s.frame.boundary_radius_mm = now_.scene->radius_at(session_->progress());
   if (s.preset.footprint.kind == preset::FootprintKind::circle)
     s.preset.set_radii(now_.scene->radius_begin_mm, s.frame.boundary_radius_mm);
   s.certificate = session_->certificate();
@@ -102,9 +102,9 @@ void EditSession::update_view() {
   s.accuracy_warning = accuracy_warning();
   s.radius_end_mm = now_.scene->radius_end_mm;
   s.edges_dragged.clear();
-  for (Eigen::Index k = 0; k < session_->boundary.dragged.cols(); ++k)
-    if (!session_->boundary.dragged.col(k).isZero(0))
-      s.edges_dragged.push_back({int(k), session_->boundary.dragged.col(k).norm()});
+  for (Eigen::Index k = 0; k < session_->dragged().cols(); ++k)
+    if (!session_->dragged().col(k).isZero(0))
+      s.edges_dragged.push_back({int(k), session_->dragged().col(k).norm()});
   update_normals();
   s.constrained.clear();
   const auto& origins = session_->constraint_origins;

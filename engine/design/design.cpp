@@ -150,6 +150,8 @@ FabricationErrors fabricate(DesignShell& shell, DesignTarget& target, double sig
   return found;
 }
 
+constexpr const char* not_known = "the lowest eigenvalue of the shell did not converge";
+
 /// Finds the last step that is stable enough on the mesh that certifies, too, and moves both shells
 /// to it. Errors: no_equilibrium.
 Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
@@ -159,11 +161,15 @@ Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
   for (std::size_t k = steps.size(); k-- > 0;) {
     if (k > 0 && !steps[k].taken) continue;
     const ShellEnds ends = variables.ends_at(steps[k].q);
-    const auto on_fine = fine.move_in_steps(ends, jump_mm);
-    if (on_fine && fine.smallest_eigenvalue() >= allowed && coarse.move_in_steps(ends, jump_mm))
-      return k;
-    why = on_fine ? "its lowest eigenvalue is below the limit of min_stability"
-                  : on_fine.error().message;
+    auto moved = fine.move_in_steps(ends, jump_mm);
+    const double eigenvalue = moved ? fine.smallest_eigenvalue() : 0;
+    if (moved && eigenvalue >= allowed) {
+      moved = coarse.move_in_steps(ends, jump_mm);
+      if (moved) return k;
+    }
+    why = !moved                   ? moved.error().message
+          : std::isnan(eigenvalue) ? not_known
+                                   : "its lowest eigenvalue is below the limit of min_stability";
   }
   return fail(Fault::no_equilibrium, "with {} edges per segment the designed shell is lost: {}",
               certified_on, why);
@@ -205,6 +211,7 @@ Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
   if (watch.cancelled()) return stopped();
   const double jump = work.jump_mm,
                allowed = preset.inverse.min_stability * found.before.back().eigenvalue;
+  if (std::isnan(allowed)) return fail(Fault::no_equilibrium, not_known);
   TRY(kept, certify(coarse, fine, variables, found.steps, allowed, jump));
   found.q = found.steps[*kept].q;
   found.kept = int(*kept);
@@ -269,8 +276,7 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
   DesignStep begin;
   begin.eigenvalue = work.coarse->smallest_eigenvalue(watch);
   if (watch.cancelled()) return stopped();
-  if (std::isnan(softest))
-    return fail(Fault::no_equilibrium, "the lowest eigenvalue of the shell did not converge");
+  if (std::isnan(softest)) return fail(Fault::no_equilibrium, not_known);
   const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
   begin.max_mm = distances.maxCoeff();
   begin.mean_mm = distances.mean();

@@ -56,6 +56,8 @@ void DesignShell::find_legs() {
     const auto& joints = scene_.footprint.rods[r].joints;
     for (const int side : {0, 1}) {
       Leg& leg = legs_[2 * r + std::size_t(side)];
+      if (!scene_.rods.weight_N_per_mm.empty())
+        leg.weight_N_per_mm = scene_.rods.weight_N_per_mm[r];
       const int edge_point = mesh_.joints + int(2 * r) + side;
       const int first = side == 0 ? edge_point : joints.back(),
                 last = side == 0 ? joints.front() : edge_point;
@@ -98,7 +100,8 @@ void DesignShell::set_diameters(const ShellEnds& ends) {
   }
 }
 
-/// Sets the lengths of the legs, distributed evenly over their edges.
+/// Sets the lengths of the legs, distributed evenly over their edges, and with them their weight at
+/// the nodes (dead_loads()).
 void DesignShell::set_legs(const ShellEnds& ends) {
   for (std::size_t k = 0; k < legs_.size(); ++k) {
     const Leg& leg = legs_[k];
@@ -107,7 +110,13 @@ void DesignShell::set_legs(const ShellEnds& ends) {
     std::vector<double> before;
     for (const int bend : leg.bends)
       before.push_back(lengths_at(model_, model_.bends[std::size_t(bend)]));
-    for (const int edge : leg.edges) model_.edges[std::size_t(edge)].rest_length = fraction;
+    for (const int k : leg.edges) {
+      ModelEdge& edge = model_.edges[std::size_t(k)];
+      const double weight = 0.5 * leg.weight_N_per_mm * (fraction - edge.rest_length);
+      for (const int node : {edge.from, edge.to})
+        if (weight != 0) model_.loads[std::size_t(node)].force.z() -= weight;
+      edge.rest_length = fraction;
+    }
     for (std::size_t b = 0; b < leg.bends.size(); ++b)
       stiffness_of(model_, leg.bends[b]) *=
           before[b] / lengths_at(model_, model_.bends[std::size_t(leg.bends[b])]);
@@ -246,8 +255,9 @@ void DesignShell::add_bend_gradient(int k, double fraction, Eigen::Matrix3Xd& mi
 }
 
 /// Adds -dg/dl of each edge of a leg, times its fraction of the leg's change: a longer edge reduces
-/// the pull on its two nodes by EA |e|/l^2, and the stiffness of every adjacent bend by the
-/// fraction 1/(2 l_v), l_v being the mean natural length there.
+/// the pull on its two nodes by EA |e|/l^2, adds half of its weight per length to each, and reduces
+/// the stiffness of every adjacent bend by the fraction 1/(2 l_v), l_v being the mean natural
+/// length there.
 void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const {
   const Leg& leg = legs_[std::size_t(end)];
   const double fraction = change / double(leg.edges.size());
@@ -258,6 +268,8 @@ void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& min
         fraction * edge.EA * g.length / (edge.rest_length * edge.rest_length) * g.tangent;
     minus_dg.col(edge.to) += pull;
     minus_dg.col(edge.from) -= pull;
+    for (const int node : {edge.from, edge.to})
+      minus_dg(2, node) -= 0.5 * fraction * leg.weight_N_per_mm;
   }
   for (const int k : leg.bends) {
     const ModelBend& bend = model_.bends[std::size_t(k)];

@@ -55,7 +55,7 @@ class DesignShell {
                           const std::vector<DesignVariables::Rate>& rates,
                           const Eigen::MatrixXd& changes, const Watch& watch = unwatched);
   /// Smallest eigenvalue of H v = lambda L v, N/mm^2: H is the Hessian, L the length of rod lumped
-  /// at the nodes. 0 if it does not converge or after a cancel.
+  /// at the nodes. NaN if it does not converge or after a cancel.
   double smallest_eigenvalue(const Watch& watch = unwatched);
 
   const RodMesh& mesh() const { return mesh_; }
@@ -99,6 +99,7 @@ class DesignShell {
     int at_end = -1;           ///< the edge at the edge point
     std::vector<int> bends;    ///< bends with at least one of its edges
     int ghost = -1, far = -1;  ///< nodes outside its edge point: ghost, far end of a tail
+    double weight_N_per_mm = 0;
 
     /// How many of a bend's two edges belong to the leg.
     int edges_of(const ModelBend& bend) const {

@@ -260,12 +260,14 @@ std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const std::function<void(const DesignStep&)>& seen) {
   Optimiser run(shell, target, variables, options, spacing_mm, watch);
   run.begin();
-  // the first stage has p = 2, as the objective of a large p is less smooth
-  for (const Stage& stage : {Stage{2, 0.3, 0.03}, {options.norm, 1, 0.002}}) {
+  // first p = 2, and not to the end, as the objective of a large p is less smooth
+  std::vector<Stage> stages{{2, 0.3, 0.03}, {options.norm, 1, 0.002}};
+  if (options.norm == 2) stages.erase(stages.begin());
+  for (const Stage& stage : stages) {
     run.begin_stage(stage);
     while (run.iterations() < options.most_iterations && !watch.cancelled())
       if (!run.step(stage, seen)) break;
-    if (options.norm == 2 || watch.cancelled()) break;
+    if (watch.cancelled()) break;
   }
   return std::move(run.steps());
 }

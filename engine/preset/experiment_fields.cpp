@@ -134,6 +134,12 @@ void add_inverse(FieldList<Inverse> list) {
                  return varies(of, Vary::diameters) &&
                         (preset.rod.rectangular() || preset.rod_v.rectangular());
                })
+      .refused({"[loads] gravity_m_s2"},
+               "a design does not follow how diameters change the weight of rods, expected a list "
+               "without \"diameters\", or no gravity",
+               [=](const Preset& preset, const I& of) {
+                 return varies(of, Vary::diameters) && preset.loads.gravity_m_s2 != 0;
+               })
       .refused(
           {"[footprint] kind"},
           "the footprint has no net, so there is no surface to meet, expected an empty list, or "

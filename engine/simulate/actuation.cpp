@@ -183,19 +183,12 @@ Follow following(const std::shared_ptr<const Scene>& scene, bool inner, double t
 
 }  // namespace
 
-std::string at_progress(double t, std::optional<double> error) {
-  auto text = fmt::format("at progress {:.4f}", progress_at(t));
-  if (error) text += fmt::format(" ± {:.1g}", 2 * t * *error);
-  return text;
-}
-
 Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& scene,
                                          const LevelPlan& plan, bool inner, double to,
                                          const Watch& watch, const RunContext& context) {
   const double started = seconds_now();
   TRY(simulation, Simulation::open(scene, plan, context));
   EquilibriumPath path{std::move(*simulation)};
-  path.at = at_progress;
   path.seconds_setup = seconds_now() - started;
   const auto certified = [](const Result<Report>& first, const char* which) -> Result<void> {
     if (!first) return tl::unexpected<Error>(first.error());

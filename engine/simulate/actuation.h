@@ -11,9 +11,6 @@
 
 namespace gridshell::simulate {
 
-/// "at progress 0.0183 ± 0.0005", of a path parameter of an actuation.
-std::string at_progress(double t, std::optional<double> error);
-
 /// Follows the actuation of a scene. From the flat state: a first buckled state is computed where
 /// the rods' mean shortening is 2 % (or less, if that state is not connected to the flat one), and
 /// the path is followed from it back towards the flat and forward to progress `to`. If the segment
@@ -27,7 +24,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
 
 /// Follows the actuation to progress 1 for a later task: its segments are `earlier`, without their
 /// states. An actuation that ends earlier is an error, no_equilibrium, "there is no actuated shell
-/// `wanted_for`: ..."; one whose mesh is too_coarse() is returned as far as it was followed.
+/// `purpose`: ..."; one whose mesh is too_coarse() is returned as far as it was followed.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context = {});

@@ -203,14 +203,25 @@ std::string text_of(const record::Contact& contact, const Footprint& footprint) 
 std::vector<ContactEvent> contact_events(const EquilibriumPath& path) {
   const NestedShell& shell = path.simulation.shell();
   const Scene& scene = path.simulation.scene();
-  const At& at = path.at;
   std::vector<ContactEvent> events = self_passages(path);
   std::optional<record::ContactSearch> search;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];
+    const At at = path.at_on(segment);
     const std::size_t first = events.size();
     std::vector<const LoadStep*> steps;
     for (const LoadStep& step : segment.load_steps) steps.push_back(&step);
+    // of a step without a path only its result is known
+    if (path.of_steps() && steps.size() == 1) {
+      const LoadStep& before =
+          (s > 0 ? path.segments[s - 1] : path.earlier.back()).load_steps.back();
+      const double t = segment.end();
+      for (const ContactKind kind : kinds)
+        if (const Bracket step(kind, {t, before.contacts}, {t, steps[0]->contacts}); step.changes())
+          events.push_back(step.event(s, scene.footprint,
+                                      [](double, std::optional<double>) { return "at its end"; }));
+      continue;
+    }
     // a segment back is shown in reverse
     if (segment.back) std::ranges::reverse(steps);
     if (s == 0 && !steps.empty())

@@ -147,9 +147,13 @@ double progress_on(const EquilibriumPath& path, std::size_t segment, double t) {
   return segment == 0 ? t / 2 : 1 - t / 2;
 }
 
-std::string at_parameter(double t, std::optional<double> error) {
-  auto text = fmt::format("at path parameter {:.3f}", t);
-  if (error) text += fmt::format(" ± {:.1g}", *error);
+At EquilibriumPath::at_on(const PathSegment& segment) const {
+  return segment.after && segment.after->actuating ? at_progress : at;
+}
+
+std::string at_progress(double t, std::optional<double> error) {
+  auto text = fmt::format("at progress {:.4f}", progress_at(t));
+  if (error) text += fmt::format(" ± {:.1g}", 2 * t * *error);
   return text;
 }
 

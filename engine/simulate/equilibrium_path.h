@@ -54,8 +54,8 @@ struct ContactEvent {
 /// one is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
-/// "at path parameter 0.1234", whatever the experiment.
-std::string at_parameter(double t, std::optional<double> error);
+/// "at progress 0.0183 ± 0.0005", of a path parameter of an actuation.
+std::string at_progress(double t, std::optional<double> error);
 
 /// A push of a joint by `displacement`, along the normal of the net, or of the unloaded shell if
 /// there is no net.
@@ -78,7 +78,7 @@ struct EquilibriumPath {
   std::optional<Push> push = {};          ///< the push of [indentation] that `segments` follow
   /// Joints that the segments push, for the layout of a run.
   std::vector<record::LoadedJoint> loaded_joints = {};
-  At at = at_parameter;   ///< how texts name a position on `segments`
+  At at = at_progress;    ///< how texts name a position on `segments`
   LevelPlan meshes = {};  ///< mesh levels on which the path was followed
   /// Time to build the meshes and the first state, s.
   double seconds_setup = 0;
@@ -95,6 +95,9 @@ struct EquilibriumPath {
 
   /// Whether the segments are steps. Else all belong to the current motion of `simulation`.
   bool of_steps() const { return !segments.empty() && segments.front().after; }
+  /// How texts name a position on one of the segments: by `at`, or, of a step that moves the whole
+  /// boundary, by its progress.
+  At at_on(const PathSegment& segment) const;
   /// Whether the path ended because its mesh is too coarse (LevelPlan::allowed_mm). Later segments
   /// are then not followed.
   bool too_coarse() const;

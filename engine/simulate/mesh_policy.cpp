@@ -98,7 +98,7 @@ std::optional<std::string> not_confirmed(const EquilibriumPath& path) {
   for (const PathSegment& segment : path.earlier)
     if (auto found = not_confirmed(segment, companion, at_progress)) return found;
   for (const PathSegment& segment : path.segments)
-    if (auto found = not_confirmed(segment, companion, path.at)) return found;
+    if (auto found = not_confirmed(segment, companion, path.at_on(segment))) return found;
   return std::nullopt;
 }
 

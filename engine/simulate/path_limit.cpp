@@ -144,11 +144,11 @@ std::string reason_of_push(EquilibriumPath& pushed, const Watch& watch) {
 
 /// Sets the limit and its reason from how the segments ended.
 void set_end(EquilibriumPath& path) {
-  const At& at = path.at;
   path.limit = record::Limit::none;
   path.limit_reason.clear();
   std::string reported;
   for (const PathSegment& segment : path.segments) {
+    const At at = path.at_on(segment);
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
       const bool going_back = segment.back && !at_limit(segment.report.end);
@@ -233,7 +233,7 @@ std::vector<std::string> messages_of_steps(const EquilibriumPath& path) {
     for (const Event& event : report.events)
       if (event.to)
         text += fmt::format(", {} {}", event.jump ? "snap to another state" : "branches",
-                            path.at(event.t, event.error));
+                            path.at_on(segment)(event.t, event.error));
     const Certificate& certificate = report.certificate;
     text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
     text += certificate.stable()

@@ -55,6 +55,9 @@ class PathSampler {
       break;
     }
     go_to_end();
+    if (left_out_ > 0)
+      path_.limit_reason += fmt::format("{}{} of the frames of its steps have no certified state",
+                                        path_.limit_reason.empty() ? "" : "; ", left_out_);
     // the path ended at the first state if its last segment leads back to the flat one
     if (last && last->back && !samples.empty() && samples.back().segment != PathSample::before_path)
       certify_sample(path_, samples.back(), watch_);
@@ -94,7 +97,7 @@ class PathSampler {
     simulation_.restore(segment.path_end ? *segment.path_end : *segment.after);
     const auto [report, past] = certify_sample(path_, sample, watch_);
     if (watch_.cancelled()) return stopped();
-    if (report.end != Outcome::reached) return {};
+    if (report.end != Outcome::reached) return ++left_out_, Result<void>{};
     return take_current(sample, events(sample, past), past);
   }
 
@@ -205,7 +208,7 @@ class PathSampler {
         if (!event.to || event.jump != jump) continue;
         const double seen = segment.back ? event.t : *event.to;
         if (sign * (seen - before) <= 0 || sign * (past - seen) < 0) continue;
-        passed += (passed.empty() ? "" : " and ") + path_.at(event.t, {});
+        passed += (passed.empty() ? "" : " and ") + path_.at_on(segment)(event.t, {});
       }
       if (!passed.empty())
         text += (text.empty() ? "" : "; ") + std::string(jump ? "snap " : "branches ") + passed;
@@ -226,7 +229,7 @@ class PathSampler {
   std::size_t count_ = 0, next_snap_ = 0;
   std::optional<PathSample> last_;
   double last_reached_t_ = 0;  // CertifiedSample::past of the last sample
-  int taken_ = 0;
+  int taken_ = 0, left_out_ = 0;
 };
 
 }  // namespace

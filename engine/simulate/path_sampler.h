@@ -17,9 +17,9 @@ using ChooseSamples = std::function<std::vector<PathSample>(const EquilibriumPat
 /// to the sink. A frame has what happened since the sample before it: events, contacts, and frames
 /// of snaps that were followed in time. If the path ended at a limit before a sample, the state at
 /// that limit is the last frame; other samples that the path did not reach have no frame. A sample
-/// that cannot be certified becomes the path's limit or, within a snap that already is the limit,
-/// is added to its reason. Frames do not steer the path; in the end the simulation is in the state
-/// of the last one. Errors: those of `follow`; cancelled; those of the sink.
+/// that cannot be certified becomes the path's limit; within a snap that already is the limit, and
+/// in a step, it is added to its reason. Frames do not steer the path; in the end the simulation is
+/// in the state of the last one. Errors: those of `follow`; cancelled; those of the sink.
 Result<EquilibriumPath> run_experiment(const Scene& scene, const Follow& follow,
                                        const ChooseSamples& choose, record::Sink& sink,
                                        Watch& watch);

@@ -33,7 +33,8 @@ void close(PathSegment& segment, const Simulation& simulation) {
     segment.from = segment.load_steps.front().point.t;
     return;
   }
-  segment.load_steps.push_back({simulation.shell().point(), simulation.certificate()});
+  segment.load_steps.push_back(
+      {simulation.shell().point(), simulation.certificate(), simulation.contacts()});
   segment.from = segment.to = segment.end();
 }
 
@@ -129,7 +130,7 @@ std::vector<PathSample> samples_of(const EquilibriumPath& path,
   double before = 1;  // progress of the boundary
   for (std::size_t k = 0; k < path.segments.size(); ++k) {
     const PathSegment& segment = path.segments[k];
-    const double after = segment.after->boundary.progress;
+    const double after = segment.after->progress;
     const bool moves = steps[k].kind == StepKind::move;
     for (int n = 1; n <= shares[k]; ++n) {
       const double part = double(n) / shares[k];

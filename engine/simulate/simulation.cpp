@@ -190,6 +190,7 @@ double Simulation::push_stiffness() const {
 
 Report Simulation::begin_flat() {
   const CallBegin begin = call_begin();
+  begin_unloaded();
   NestedState flat;
   for (int k = 0; k < shell_->levels(); ++k) {
     Linearisation& system = shell_->system(k);
@@ -202,8 +203,6 @@ Report Simulation::begin_flat() {
     flat.x = nodes_of(shell_->mesh(k), shell_->model(k), flat.levels.back().x);
   }
   shell_->restore(flat, shell_->motions(), {});
-  constraints_.clear();
-  actuating_ = true;
   set_progress(0);
   return report(Outcome::reached, 0, begin);
 }
@@ -227,6 +226,7 @@ Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
 }
 
 Report Simulation::begin_refined(double t, const State& coarse, const Watch& watch) {
+  begin_unloaded();
   shell_->actuate(t, {}, load_scale_);
   const auto fine = shell_->refined(t, coarse, watch);
   if (fine) return begin_at(t, *fine, watch);
@@ -235,17 +235,27 @@ Report Simulation::begin_refined(double t, const State& coarse, const Watch& wat
 
 Report Simulation::begin_at(double t, const State& fine, const Watch& watch) {
   const CallBegin begin = call_begin();
-  actuating_ = true;
-  constraints_.clear();
+  begin_unloaded();
   shell_->actuate(t, {}, load_scale_);
   const NestedReport nested = shell_->start(t, fine, watch);
   if (nested.end == Outcome::reached) set_progress(progress_at(t));
   return report(nested.end, nested.t, begin);
 }
 
+/// Removes what earlier commands left: a first state has the scene's own supports and loads alone.
+void Simulation::begin_unloaded() {
+  actuating_ = true;
+  constraints_.clear();
+  constraint_origins.clear();
+  cases.clear();
+  load_scale_ = 1;
+  apply_field({});
+}
+
 /// Sets the progress of the scene's motion and clears displacements of edge points.
 void Simulation::set_progress(double progress) {
-  boundary = {progress_ = progress, Eigen::Matrix3Xd::Zero(3, scene_->motion.begin.cols())};
+  progress_ = progress;
+  dragged_.setZero(3, scene_->motion.begin.cols());
 }
 
 // ---- save and restore ----
@@ -263,12 +273,12 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   const double t = actuating_ ? before->state().t : 0;
   State state = shell_->stay(*before, constraints_);
   if (actuating_) shell_->actuate(t, constraints_, load_scale_);
-  if (nearby) {
-    shell_->motion().impose(shell_->system(), t, state);
+  // prescribed joints move to their extrapolated positions, those of all meshes
+  shell_->motion().impose(shell_->system(), t, state);
+  if (nearby)
     if (auto rest =
             find_equilibrium(shell_->system(), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);
-  }
   // a state that is not stable need not be stable on the new meshes
   shell_->allow_unstable(before->state().inertia.negative_pivots > 0);
   Outcome end = shell_->start(t, state, watch).end;
@@ -280,7 +290,7 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 
 Checkpoint Simulation::save() const {
   return {shell_->state(),  shell_,    rods_,      shell_->motions(), constraints_,       field_,
-          load_scale_,      progress_, actuating_, boundary,          constraint_origins, cases,
+          load_scale_,      progress_, actuating_, dragged_,          constraint_origins, cases,
           first_stiffness_, along_};
 }
 
@@ -294,7 +304,7 @@ void Simulation::restore(const Checkpoint& kept) {
   load_scale_ = kept.load_scale;
   progress_ = kept.progress;
   actuating_ = kept.actuating;
-  boundary = kept.boundary;
+  dragged_ = kept.dragged;
   constraint_origins = kept.constraint_origins;
   cases = kept.cases;
   first_stiffness_ = kept.first_stiffness;

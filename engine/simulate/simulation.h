@@ -125,13 +125,6 @@ struct BifurcationPolicy {
   bool through_unstable = false;  ///< continue through unstable states instead
 };
 
-/// Position of the boundary relative to the motion of the scene.
-struct BoundaryPosition {
-  /// Fraction of the motion, from 0 to 1.
-  double progress = 0;
-  Eigen::Matrix3Xd dragged;  ///< correction of each edge point, mm, 3 x edge points; empty: none
-};
-
 /// A load case that acts on the shell: `factor` times its forces.
 struct CaseOnShell {
   /// Name in the preset.
@@ -161,7 +154,8 @@ struct Checkpoint {
   double load_scale = 1, progress = 0;
   /// Whether the path parameter is that of the actuation, not of a drive.
   bool actuating = true;
-  BoundaryPosition boundary;
+  /// Displacements of the edge points in addition to the motion of the scene, mm, 3 x edge points.
+  Eigen::Matrix3Xd dragged;
   /// Position of each constrained joint when its constraint was set, mm.
   std::map<int, Eigen::Vector3d> constraint_origins;
   /// Load cases that act, the last one last.
@@ -222,8 +216,9 @@ class Simulation {
             PathRecord* record = nullptr);
   /// Moves the boundary to a progress of the scene's motion. Constrained joints stay fixed.
   Report move_to(double progress, const Watch& watch, PathRecord* record = nullptr);
-  /// Moves the edge points on straight lines to the end of `motion`.
-  Report move_edge_points(const BoundaryMotion& motion, const Watch& watch);
+  /// Moves the edge points on straight lines to their positions at a progress of the scene's motion
+  /// plus `dragged`, mm, 3 x edge points.
+  Report move_edge_points(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
   /// Constrains a joint until release(), and prepares its push by `displacement`, mm, which go()
   /// then follows.
   Report begin_push(int joint, const Eigen::Vector3d& displacement, Across across,
@@ -233,7 +228,7 @@ class Simulation {
               PathRecord* record = nullptr);
   /// Releases a joint: its reaction is reduced to zero in equal steps.
   Report release(int joint, const Watch& watch);
-  /// Sets the factor of the scene's dead loads.
+  /// Sets the factor of the scene's dead loads, to which load cases add theirs.
   Report load(double factor, const Watch& watch);
   /// Replaces the applied load by `field` (empty: no load) and adds `dead` to the factor of the
   /// dead loads.
@@ -274,11 +269,14 @@ class Simulation {
   const ShellRods& rods() const { return rods_ ? *rods_ : scene_->rods; }
   /// Factor of the dead loads, and its increment in a drive.
   LoadFactor steady_load() const;
+  /// Progress of the boundary: fraction of the scene's motion, from 0 to 1.
   double progress() const { return progress_; }
+  /// Displacements of the edge points in addition to that motion, mm, 3 x edge points.
+  const Eigen::Matrix3Xd& dragged() const { return dragged_; }
   /// Writes depth, force and stiffness of the last push into a frame; nothing without a constrained
-  /// joint. The depth is the displacement since the constraint was set, along its constrained
-  /// directions, mm, positive in the direction of the push. The force is the component of the
-  /// reaction in that direction, N.
+  /// joint. The depth is the length of the displacement since the constraint was set, along its
+  /// constrained directions, mm. The force is the component of the reaction in the direction of
+  /// that displacement, N.
   void put_push(record::Frame& frame) const;
   /// Writes the stiffness along the last push, N/mm, its error and the error of the force, N.
   void put_push_errors(record::Frame& frame) const;
@@ -304,7 +302,6 @@ class Simulation {
   /// Interpenetrations in nodes(), the shape that is shown.
   record::Contacts contacts() const;
 
-  BoundaryPosition boundary;
   /// Position of each constrained joint when its constraint was set, mm.
   std::map<int, Eigen::Vector3d> constraint_origins;
   /// Load cases that act, the last one last.
@@ -324,6 +321,7 @@ class Simulation {
                PathRecord* record = nullptr);
   Outcome start_here(double t, const Checkpoint& before, const Watch& watch);
   void apply_field(std::vector<NodeAction> field);
+  void begin_unloaded();
   void set_progress(double progress);
   double load_step() const;
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
@@ -352,6 +350,7 @@ class Simulation {
   std::vector<NodeAction> field_;  // the applied load
   double load_scale_ = 1;          // factor of the scene's dead loads
   double progress_ = 0;
+  Eigen::Matrix3Xd dragged_;
   double first_stiffness_ = 0;  // stiffness at the start of the last push, N/mm
   Eigen::VectorXd along_;       // direction of its displacements, in the constrained directions
   bool actuating_ = true;       // the path parameter is that of the scene's motion, not of a drive

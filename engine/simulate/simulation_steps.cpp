@@ -74,10 +74,20 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
   return go(t, watch, {}, record);
 }
 
-Report Simulation::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
-  const LoadFactor load = steady_load();
-  return drive({.constraints = constraints_, .displacements = {}, .boundary = motion, .load = load},
-               {}, watch);
+Report Simulation::move_edge_points(double progress, const Eigen::Matrix3Xd& dragged,
+                                    const Watch& watch) {
+  BoundaryMotion motion = scene_->motion;
+  motion.end = motion.begin + progress * (motion.end - motion.begin) + dragged;
+  motion.end_joints = motion.begin_joints + progress * (motion.end_joints - motion.begin_joints);
+  // dead loads grow with the progress
+  const double change = progress - progress_;
+  const LoadFactor load{steady_load().begin, load_scale_ * change};
+  Report done =
+      drive({.constraints = constraints_, .displacements = {}, .boundary = motion, .load = load},
+            {}, watch);
+  progress_ += done.t * change;
+  dragged_ += done.t * (dragged - dragged_);
+  return done;
 }
 
 Report Simulation::begin_push(int joint, const Eigen::Vector3d& displacement, Across across,
@@ -135,16 +145,25 @@ Report Simulation::release(int joint, const Watch& watch) {
   restore(constrained);
   shell_->drive({.constraints = left, .load = load});
   constraints_ = left;
+  actuating_ = false;
+  first_stiffness_ = 0;
   const auto found = minimise_from(shell_->system(), shell_->state().levels.back(), watch);
   Outcome end = Outcome::not_converged;
   if (found) end = shell_->start(0, *found, watch).end;
   if (end != Outcome::reached) restore(constrained);
   done.certificate = certificate();
   done.end = watch.cancelled() ? Outcome::cancelled : end;
+  if (done.end != Outcome::reached) return done;
+  // the shell has snapped from where the force could not be reduced further
+  if (done.events.empty() || done.events.back().to)
+    done.events.push_back({Event::Kind::stability_lost, done.t, {}, {}});
+  done.events.back().to = done.t;
+  done.t = 1;
   return done;
 }
 
 Report Simulation::load(double factor, const Watch& watch) {
+  for (const CaseOnShell& one : cases) factor += one.factor * one.dead;
   const double change = factor - load_scale_;
   const LoadFactor load{steady_load().begin, change * progress_};
   Report done = drive({.constraints = constraints_, .load = load}, {}, watch);

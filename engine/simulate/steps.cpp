@@ -34,20 +34,10 @@ Result<Report> move(Simulation& simulation, const preset::Step& step, const Watc
                     PathSegment* path) {
   const Scene& scene = simulation.scene();
   TRY(dragged, dragged_of(step, scene));
-  BoundaryPosition& boundary = simulation.boundary;
   const double progress = progress_of(step, scene);
-  if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
-    const Report report = simulation.move_to(progress, watch, path);
-    boundary.progress = simulation.progress();
-    return report;
-  }
-  BoundaryMotion motion = scene.motion;
-  motion.end = motion.begin + progress * (motion.end - motion.begin) + *dragged;
-  motion.end_joints = motion.begin_joints + progress * (motion.end_joints - motion.begin_joints);
-  const Report report = simulation.move_edge_points(motion, watch);
-  boundary.progress += report.t * (progress - boundary.progress);
-  boundary.dragged += report.t * (*dragged - boundary.dragged);
-  return report;
+  if (dragged->isZero(0) && simulation.dragged().isZero(0))
+    return simulation.move_to(progress, watch, path);
+  return simulation.move_edge_points(progress, *dragged, watch);
 }
 
 /// The position to which a step moves a joint: `target`. If the joint is `free` perpendicular to

@@ -34,7 +34,7 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
 /// `rest`, `jitter` and a `release` without an equilibrium leave it in the state before them.
 /// Errors (bad_input): a joint or an edge point that does not exist, nothing to release, individual
 /// displacements of edge points whose rods' directions are prescribed. `path` gets the load steps
-/// of a move, a push or a joint actuation.
+/// of a push, a joint actuation, or a move that displaces no edge point by itself.
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
                           PathSegment* path = nullptr);
 

@@ -95,7 +95,7 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>&
     level->system->constrain(constraints);
     fine = std::move(state);
   }
-  state_.t = 0;
+  state_ = {};  // of the last use of these meshes, in which a prescribed joint was elsewhere
   forget();
   reset_path();
   return fine;

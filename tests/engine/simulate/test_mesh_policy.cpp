@@ -104,7 +104,7 @@ TEST_CASE("meshes that never agree are doubled three times, and the doubt is sai
   const auto path = value_of(policy(small(), prescribed, tried));
   CHECK(tried == std::vector<int>{8, 16, 32, 64});
   CHECK_THAT(path.mesh_disagreement, Catch::StartsWith("32 edges per segment do not have the "
-                                                       "event at path parameter 0.75"));
+                                                       "event at progress 0.5625"));
 }
 
 TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is missed") {
@@ -115,14 +115,14 @@ TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is 
   CHECK(path.tolerance_missed);
   CHECK(path.segments.back().report.end == Outcome::reached);
   CHECK_THAT(path.mesh_disagreement, Catch::StartsWith("the tolerance 0.001 is not met: 128 ") &&
-                                         Catch::EndsWith(", at path parameter 1.000"));
+                                         Catch::EndsWith(", at progress 1.0000"));
   const auto next = value_of(policy(
       small(),
       [](int) {
         return Prescribed{true, true, 0.97};
       },
       tried));
-  CHECK_THAT(next.mesh_disagreement, Catch::EndsWith("1.000, next to an event, where a state "
+  CHECK_THAT(next.mesh_disagreement, Catch::EndsWith("1.0000, next to an event, where a state "
                                                      "moves most"));
 }
 

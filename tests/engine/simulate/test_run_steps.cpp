@@ -160,6 +160,65 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
   CHECK(outcome.trajectory.frames.back().event == "locking");
 }
 
+TEST_CASE("a shell that snaps when its joint is released says so, and moves on from there") {
+  preset::Preset preset = circle(8, 100, 75);
+  preset::Step aside = of(StepKind::push);
+  aside.joint = {0, 0};
+  aside.to_mm = {10, 10, -10};
+  preset.movie.frames = 6;
+  preset.step = {aside, of(StepKind::release)};
+  const auto released = run(preset);
+  CHECK(released.summary.limit == record::Limit::snap);
+  CHECK_THAT(released.summary.limit_reason, Catch::StartsWith("step 2 (release): "));
+  CHECK_THAT(released.summary.steps[1], Catch::Contains("snap to another state"));
+  // joints that touched under the push no longer do
+  CHECK_THAT(released.summary.contact, Catch::Contains("step 2 (release): joints no longer touch"));
+  preset.step = {aside, move(0.98), of(StepKind::release), move(0.8)};
+  const auto moved = run(preset);
+  CHECK(moved.summary.steps.size() == 4);
+  preset.step = {move(0.8)};
+  CHECK(distance(moved, run(preset)) < 0.05);
+}
+
+TEST_CASE("an edge point that is moved and put back leaves the shell of its boundary") {
+  preset::Preset preset = circle(8, 100, 75);
+  preset.loads.field_N_per_mm = 2e-5;
+  preset.movie.frames = 6;
+  preset::Step dragged = move(0.8);
+  dragged.edge_points = {{0, 0.2, 0, 0}};
+  preset.step = {dragged, move(0.8), move(0.7)};
+  const auto put_back = run_to_end(preset);
+  // dead loads grow with the progress of the boundary
+  preset.step = {move(0.8), move(0.7)};
+  const auto plain = run_to_end(preset);
+  CHECK(distance(put_back, plain) < 0.01);
+  for (const std::size_t k : {std::size_t(2), put_back.trajectory.frames.size() - 1}) {
+    const record::Frame& frame = put_back.trajectory.frames[k];
+    CHECK(frame.energies[Term::load] ==
+          Approx(plain.trajectory.frames[k == 2 ? 3 : plain.trajectory.frames.size() - 1]
+                     .energies[Term::load])
+              .epsilon(1e-3));
+  }
+}
+
+TEST_CASE("the dead loads of a load case are added to those of a step") {
+  preset::Preset preset = circle(8, 100, 75);
+  preset.loads.field_N_per_mm = 1e-4;
+  preset.load_case = {{.name = "twice", .dead = 1}};
+  preset.movie.frames = 2;
+  preset::Step all = of(StepKind::load), one = all, none = all;
+  one.load_case = none.load_case = "twice";
+  none.factor = 0;
+  preset.step = {one, all, none};
+  const auto outcome = run_to_end(preset);
+  const auto& frames = outcome.trajectory.frames;
+  REQUIRE(frames.size() == 4);
+  const auto load = [&](std::size_t k) { return frames[k].energies[Term::load]; };
+  CHECK(load(1) > 1.9 * load(0));
+  CHECK(load(2) == Approx(load(1)).epsilon(1e-4));
+  CHECK(load(3) == Approx(load(0)).epsilon(1e-4));
+}
+
 TEST_CASE("steps on what is not there are errors with their number") {
   preset::Preset preset = small_shell_on_four_edges();
   const auto refused = [&](const preset::Step& step) {

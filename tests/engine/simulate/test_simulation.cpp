@@ -35,13 +35,9 @@ void certified(const Simulation& session, const Report& report) {
   CHECK(report.effort.factorizations > 0);
 }
 
-/// the circle's edge points on an ellipse of the actuated size
-BoundaryMotion ellipse(const Scene& scene) {
-  BoundaryMotion motion = scene.motion;
-  motion.begin = motion.end;
-  motion.end.row(0) *= 1.06;
-  motion.end.row(1) *= 0.96;
-  return motion;
+/// displacements of a circle's edge points onto an ellipse
+Eigen::Matrix3Xd ellipse(const Scene& scene) {
+  return Eigen::Vector3d(0.06, -0.04, 0).asDiagonal() * scene.motion.end;
 }
 
 double shell_progress(const Scene& scene, double ratio) {
@@ -66,7 +62,7 @@ TEST_CASE("a session goes through all that a user does, and back by its checkpoi
   };
   keep(session.begin_buckled(0.02, unwatched).value());
   keep(session.move_to(1, unwatched));
-  keep(session.move_edge_points(ellipse(*shell), unwatched));
+  keep(session.move_edge_points(1, ellipse(*shell), unwatched));
   const Eigen::Vector3d down(0, 0, -0.4);
   keep(session.push(7, down, Across::free, unwatched));
   CHECK((session.nodes().col(7) - nodes[2].col(7)).z() == Approx(-0.4).margin(1e-2));
@@ -98,7 +94,7 @@ TEST_CASE("a session goes through all that a user does, and back by its checkpoi
   }
   // from a restored checkpoint the same command gives the same state
   session.restore(kept[1]);
-  certified(session, session.move_edge_points(ellipse(*shell), unwatched));
+  certified(session, session.move_edge_points(1, ellipse(*shell), unwatched));
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-6);
 }
 
@@ -116,6 +112,36 @@ TEST_CASE("a session refines on request and takes other rods from where it is") 
   CHECK(session.energies()[Term::bend] == Approx(bend * std::pow(0.3 / 0.254, 4)).epsilon(1e-2));
   CHECK_FALSE(session.set_rods(RodSection{-1, 1}, unwatched));
   certified(session, session.move_to(0.95, unwatched));
+}
+
+TEST_CASE("a joint stays where it was pushed to on other meshes, whatever they were used for") {
+  Simulation session = formed(six_rods(1e-2));
+  const double coarse = session.certificate().error_estimate_mm;
+  const Checkpoint unpushed = session.save();
+  certified(session, session.refine(0.2 * coarse, unwatched));
+  session.restore(unpushed);
+  certified(session, session.push(7, {0, 0, -3}, Across::fixed, unwatched));
+  const Eigen::Vector3d there = session.nodes().col(7);
+  certified(session, session.move_to(0.97, unwatched));
+  const double height = session.nodes().row(2).maxCoeff(),
+               error = session.certificate().error_estimate_mm;
+  certified(session, session.refine(0.2 * coarse, unwatched));
+  CHECK((session.nodes().col(7) - there).norm() < 1e-6);
+  CHECK(session.nodes().row(2).maxCoeff() == Approx(height).margin(2 * error));
+  certified(session, session.move_to(0.95, unwatched));
+  CHECK((session.nodes().col(7) - there).norm() < 1e-6);
+}
+
+TEST_CASE("a first state has no loads of earlier commands") {
+  Simulation session = formed(six_rods(1e-2));
+  const State first = session.shell().state().levels.back();
+  const double t = session.shell().state().t;
+  const Eigen::Matrix3Xd plain = session.nodes();
+  certified(session, session.set_field({{3, {0, 0, -0.15}}}, unwatched));
+  CHECK(max_column_norm(session.nodes() - plain) > 0.3);
+  certified(session, session.begin_at(t, first, unwatched));
+  CHECK(session.field().empty());
+  CHECK(max_column_norm(session.nodes() - plain) < 1e-4);
 }
 
 TEST_CASE("what fails leaves the last certified state, what is cancelled says so") {
