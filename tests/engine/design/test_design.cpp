@@ -249,7 +249,7 @@ TEST_CASE("what cannot be designed is refused") {
   CHECK_THAT(refusal(design(p, watch)), Catch::Contains("bend model"));
 }
 
-TEST_CASE("a design by least squares goes on until its steps no longer pay", "[standard]") {
+TEST_CASE("a design by least squares continues until its steps no longer pay", "[standard]") {
   // with the exponent 2 the first stage, which ends at a decrease of 3 %, is not the last one
   const DesignResult found = designed(cap(0), {Vary::pins}, 2);
   const auto taken = std::ranges::count(found.steps, true, &DesignStep::taken);
