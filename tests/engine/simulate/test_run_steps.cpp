@@ -204,7 +204,9 @@ TEST_CASE("an edge point that is moved and put back leaves the shell of its boun
 TEST_CASE("the dead loads of a load case are added to those of a step") {
   preset::Preset preset = circle(8, 100, 75);
   preset.loads.field_N_per_mm = 1e-4;
-  preset.load_case = {{.name = "twice", .dead = 1}};
+  preset.load_case.resize(1);
+  preset.load_case[0].name = "twice";
+  preset.load_case[0].dead = 1;
   preset.movie.frames = 2;
   preset::Step all = of(StepKind::load), one = all, none = all;
   one.load_case = none.load_case = "twice";
