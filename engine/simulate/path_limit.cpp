@@ -142,46 +142,39 @@ std::string reason_of_push(EquilibriumPath& pushed, const Watch& watch) {
   return {};
 }
 
-/// Sets the limit and its reason from how the segments ended.
+/// Sets the limit and its reason from how the segments ended. Of steps each sentence names its own.
 void set_end(EquilibriumPath& path) {
   path.limit = record::Limit::none;
   path.limit_reason.clear();
   std::string reported;
   for (const PathSegment& segment : path.segments) {
     const At at = path.at_on(segment);
+    const std::string step =
+        segment.step.empty()
+            ? ""
+            : fmt::format("step {} ({}): ", &segment - path.segments.data() + 1, segment.step);
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
       const bool going_back = segment.back && !at_limit(segment.report.end);
       path.limit = going_back ? record::Limit::no_equilibrium : ended;
-      path.limit_reason = how_it_ended(segment, path.simulation.scene().max_strain, at);
+      path.limit_reason = step + how_it_ended(segment, path.simulation.scene().max_strain, at);
       break;
     }
     const char* on_path = segment.back ? "on the path back to the flat " : "";
     const auto branches = branch_losses({&segment, 1}, at, false);
     if (!branches.empty())
       reported += fmt::format(
-          "{}{}the path branches {} and continues without a snap to the side that the imperfection "
+          "{}{}{}the path branches {} and continues without a snap to the side that the "
+          "imperfection "
           "chose",
-          reported.empty() ? "" : "; ", on_path, branches);
+          reported.empty() ? "" : "; ", step, on_path, branches);
     const auto losses = branch_losses({&segment, 1}, at);
-    if (losses.empty() || path.limit != record::Limit::none) continue;
+    if (losses.empty() || (path.limit != record::Limit::none && step.empty())) continue;
     path.limit = record::Limit::snap;
-    reported += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
-                            reported.empty() ? "" : "; ", on_path, losses);
+    reported += fmt::format("{}{}{}the path lost its stability {} and reached another equilibrium",
+                            reported.empty() ? "" : "; ", step, on_path, losses);
   }
   if (path.limit_reason.empty()) path.limit_reason = reported;
-}
-
-/// Names the step that ended the path, or that snapped first, in front of the reason.
-void name_step(EquilibriumPath& path) {
-  const auto ended = std::ranges::find_if(path.segments, [](const PathSegment& segment) {
-    return segment.report.end != Outcome::reached;
-  });
-  const auto named =
-      ended != path.segments.end() ? ended : std::ranges::find_if(path.segments, snapped);
-  if (named != path.segments.end())
-    path.limit_reason.insert(
-        0, fmt::format("step {} ({}): ", named - path.segments.begin() + 1, named->step));
 }
 
 }  // namespace
@@ -206,7 +199,6 @@ void set_limit(EquilibriumPath& path, const Watch& watch) {
     path.limit_reason = path.refused;
     return;
   }
-  if (path.of_steps() && path.limit != record::Limit::none) name_step(path);
   const auto add = [&](const std::string& more) {
     path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + more;
   };

@@ -131,11 +131,13 @@ Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matri
   modes.values.resize(soft->values.size() + stiff->values.size());
   const auto put = [&](double inverse, const auto& vector) {
     const double lambda = 1 / (inverse * unit);
-    modes.values[Index(modes.shapes.size())] = lambda;
     // lambda K^-1 M maps a mode to itself and computes its unknowns without mass
     Eigen::Matrix3Xd shape = root.cwiseProduct(vector.reshaped(3, root.cols())), force;
     system.solve(shape);
     shape *= lambda * std::sqrt(unit);
+    // Rayleigh's quotient without the shift that bears directions without stiffness
+    modes.values[Index(modes.shapes.size())] =
+        lambda - system.neutral_shift() * shape.squaredNorm();
     multiply(model, system.assembly().hessian, shape, force);
     force += system.neutral_shift() * shape;
     Eigen::Matrix3Xd inertia = lambda * mass.cwiseProduct(shape);

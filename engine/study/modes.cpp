@@ -48,9 +48,18 @@ Result<MeshModes> modes_on(Simulation& simulation, int level, int count, const W
   return modes;
 }
 
-/// |cos| of the angle between two shapes.
-double likeness(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-  return std::abs(product(a, b)) / (a.norm() * b.norm());
+/// cos of the angle between a shape and its part along mode k of a mesh and the modes of the same
+/// lambda: of those a mesh has any combinations.
+double likeness(const Eigen::Matrix3Xd& shape, const MeshModes& mesh, std::size_t k) {
+  constexpr double equal = 1e-4;  // relative difference of lambda
+  const Eigen::VectorXd& lambda = mesh.found.values;
+  double square = 0;
+  for (std::size_t j = 0; j < mesh.shapes.size(); ++j) {
+    const double difference = lambda[Eigen::Index(j)] - lambda[Eigen::Index(k)];
+    if (std::abs(difference) <= equal * std::abs(lambda[Eigen::Index(k)]))
+      square += std::pow(product(shape, mesh.shapes[j]), 2) / mesh.shapes[j].squaredNorm();
+  }
+  return std::sqrt(square) / shape.norm();
 }
 
 /// For each mode of `fine` the most similar mode of `coarse` that is not yet paired; -1: none.
@@ -62,7 +71,7 @@ std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse
   std::vector<Pair> pairs;
   for (std::size_t a = 0; a < fine.shapes.size(); ++a)
     for (std::size_t b = 0; b < coarse.shapes.size(); ++b)
-      pairs.push_back({likeness(fine.shapes[a], coarse.shapes[b]), a, b});
+      pairs.push_back({likeness(fine.shapes[a], coarse, b), a, b});
   std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::alike);
   constexpr auto none = std::size_t(-1);
   std::vector<std::size_t> partner(fine.shapes.size(), none);

@@ -255,7 +255,7 @@ TEST_CASE("a design by least squares continues until its steps no longer pay", "
   const auto taken = std::ranges::count(found.steps, true, &DesignStep::taken);
   const DesignResult nearly = designed(cap(0), {Vary::pins}, 2.0001);
   CHECK(taken >= 5);
-  CHECK(found.after.back().mean_mm == Approx(nearly.after.back().mean_mm).epsilon(0.02));
+  CHECK(found.after.back().mean_mm < nearly.after.back().mean_mm);
 }
 
 TEST_CASE("a hemisphere meets its sphere by its pins in the plane", "[standard]") {
