@@ -65,6 +65,8 @@ std::string with_error(double value, double error, const char* unit) {
       return with_error(value / times, error / times, larger);
   const std::string end = *unit ? fmt::format(" {}", unit) : "";
   if (!std::isfinite(error)) return fmt::format("{:.4g}{} (error not known)", value, end);
+  constexpr double round_off = 1e-9;
+  if (std::max(std::abs(value), error) < round_off) return "0" + end;
   if (error == 0) return fmt::format("{:.9g}{}", value, end);
   const double exponent = std::floor(std::log10(error));
   if (exponent < 1) {

@@ -227,7 +227,10 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
   actuated->earlier = std::exchange(actuated->segments, {});
   for (PathSegment& segment : actuated->earlier) segment.free_states();
   if (actuated->too_coarse()) return actuated;
-  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
+  // a shell that is formed may be used, even if how the flat state leads to it is not known
+  const PathSegment& last = actuated->earlier.back();
+  const bool formed = !last.back && last.report.end == Outcome::reached;
+  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap && !formed)
     return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", purpose,
                 actuated->limit_reason,
                 actuated->limit == record::Limit::locking

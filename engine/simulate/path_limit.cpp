@@ -202,16 +202,20 @@ void set_limit(EquilibriumPath& path, const Watch& watch) {
   const auto add = [&](const std::string& more) {
     path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + more;
   };
-  if (path.push) {
+  if (path.push)
     if (auto reason = reason_of_push(path, watch); !reason.empty())
       path.limit_reason = std::move(reason);
-    // which shell was pushed depends on earlier events
-    if (const auto losses = branch_losses(path.earlier, at_progress); !losses.empty()) {
-      if (path.limit == record::Limit::none) path.limit = record::Limit::snap;
-      add("before the push the path lost its stability " + losses +
-          " and reached another equilibrium");
-    }
+  // which shell was pushed, or took the steps, depends on earlier events
+  const char* later = path.push ? "before the push " : "before its steps ";
+  if (const auto losses = branch_losses(path.earlier, at_progress); !losses.empty()) {
+    if (path.limit == record::Limit::none) path.limit = record::Limit::snap;
+    add(later + ("the path lost its stability " + losses) + " and reached another equilibrium");
   }
+  for (const PathSegment& segment : path.earlier)
+    if (segment.report.end != Outcome::reached) {
+      path.limit = record::Limit::no_equilibrium;
+      add(later + how_it_ended(segment, path.simulation.scene().max_strain, at_progress));
+    }
   if (!path.mesh_disagreement.empty()) add(path.mesh_disagreement);
 }
 

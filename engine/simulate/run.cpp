@@ -186,6 +186,17 @@ std::string late_on_branch(const EquilibriumPath& path) {
   return "";
 }
 
+/// A sentence on a rod that may turn, whose state is then one of many.
+std::string turns_freely(const EquilibriumPath& path) {
+  const Scene& scene = path.simulation.scene();
+  const double off = off_free_axis(path.simulation);
+  if (!(off > scene.tolerance * scene.length_scale_mm)) return "";
+  return fmt::format(
+      "a rod stands {:.3g} mm off the line of its supports and turns about it without force: its "
+      "position around that line is one of many",
+      off);
+}
+
 /// Writes how the path was followed, and on which meshes, into the summary.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -198,6 +209,7 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.tolerance_met = !path.tolerance_missed;
   if (s.doubt.empty()) s.doubt = late_on_branch(path);
   if (s.doubt.empty()) s.doubt = near_image(path);
+  if (s.doubt.empty()) s.doubt = turns_freely(path);
   for (const ContactEvent& event : path.contacts)
     s.contact += (s.contact.empty() ? "" : "; ") + event.text;
   s.largest_strain = path.simulation.certificate().largest_strain;

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "engine/solve/turning_rods.h"
+
 namespace gridshell::simulate {
 namespace {
 
@@ -72,6 +74,23 @@ double distance_of_image(const Simulation& simulation, double least_mm) {
     if (off > least_mm) nearest = std::min(nearest, off);
   }
   return nearest;
+}
+
+double off_free_axis(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  if (scene.rods.loaded() || !simulation.constraints().empty() || !simulation.field().empty())
+    return 0;
+  const Eigen::Matrix3Xd& x = simulation.nodes();
+  const auto turning =
+      turning_rods(scene.footprint, simulation.rods(), scene.motion, scene.solved_model());
+  double farthest = 0;
+  for (const TurningNodes& rod :
+       turning_nodes(turning, scene.footprint, simulation.shell().finest())) {
+    const Eigen::Vector3d line = (x.col(rod.to) - x.col(rod.from)).normalized();
+    for (const int node : rod.nodes)
+      farthest = std::max(farthest, line.cross(x.col(node) - x.col(rod.from)).norm());
+  }
+  return farthest;
 }
 
 bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes) {

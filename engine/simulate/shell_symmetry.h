@@ -1,5 +1,5 @@
-// Which symmetries of its mesh a shell has, and how far its state is from its own images under
-// them.
+// Which symmetries of its mesh a shell has, how far its state is from its own images under them,
+// and whether rods turn freely.
 #pragma once
 
 #include <vector>
@@ -23,5 +23,9 @@ double distance_of_image(const Simulation& simulation, double least_mm);
 /// Whether a state further along the path (nodes of the finest mesh) breaks a symmetry of the shell
 /// that the simulation's own state, nearer to the flat one, has: the path branches in between.
 bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes);
+
+/// Largest distance, mm, of a rod from the line of its supports about which it turns without force;
+/// 0: none does, or a load or a prescribed joint may hold it.
+double off_free_axis(const Simulation& simulation);
 
 }  // namespace gridshell::simulate

@@ -180,6 +180,19 @@ TEST_CASE("a column buckles to any side, each as stable as the others") {
   CHECK(std::abs(sides[0] - sides[1]) > 0.01);
 }
 
+TEST_CASE("a rod that turns about the line of its supports is one of many, and says so") {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}};
+  file.rods = {{0, 1, 2}};
+  file.supports = {{0}, {2, 90, 0, 0}};
+  preset::Preset p = network(file);
+  CHECK_THAT(run_to_end(p).summary.doubt, Catch::Contains("is one of many"));
+  // a load may hold it
+  p.rod.density_kg_m3 = 6450;
+  p.loads.gravity_m_s2 = 9.81;
+  CHECK_THAT(run_to_end(p).summary.doubt, !Catch::Contains("is one of many"));
+}
+
 TEST_CASE("a pinched ring continues past its double mode on every mesh", "[standard]") {
   preset::NetworkData file;
   file.rods.resize(1);
