@@ -9,6 +9,7 @@
 #include "engine/scene/net_design.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/branch_switch.h"
+#include "engine/simulate/shell_symmetry.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/mesh_levels.h"
@@ -31,7 +32,16 @@ Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const Pin
   BuckleSeed other = scene.seed;
   other.diagonal *= -1;
   auto second = first_buckled(system, mesh, motion, t, other, scene.flat, watch);
-  return second && lower(*second) > lower(*first) ? second : first;
+  Result<State>& found = second && lower(*second) > lower(*first) ? second : first;
+  if (lower(*found) > -clearly_mm) return found;
+  // where both seeds lead to one state, an image of it may be the requested one
+  const Eigen::Matrix3Xd nodes = found->x.leftCols(system.model().nodes);
+  for (const MeshSymmetry& symmetry :
+       simulate::symmetries_of_shell(scene, mesh, symmetries_of(mesh, motion.at(t)))) {
+    State image = start_state(system.model(), symmetry.of(nodes));
+    if (!symmetry.turns_over() && lower(image) > clearly_mm) return image;
+  }
+  return found;
 }
 
 /// The drawn shape relaxed to equilibrium with the bend model.

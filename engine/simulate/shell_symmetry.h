@@ -25,7 +25,7 @@ double distance_of_image(const Simulation& simulation, double least_mm);
 bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes);
 
 /// Largest distance, mm, of a rod from the line of its supports about which it turns without force;
-/// 0: none does, or a load or a prescribed joint may hold it.
+/// 0: none does, or a load or a prescribed joint may keep it from turning.
 double off_free_axis(const Simulation& simulation);
 
 }  // namespace gridshell::simulate

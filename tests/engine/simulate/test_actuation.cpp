@@ -70,6 +70,18 @@ TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at i
   CHECK(asymmetry(outcome.trajectory, -1) < 1e-6);
 }
 
+TEST_CASE("the seed names the diagonal of a small shell, too, to which every start leads") {
+  for (const bool other : {false, true}) {
+    preset::Preset p = circle(4, 50, 45);
+    p.limits.max_strain = 0.02;
+    p.actuation.seed_diagonal =
+        other ? preset::SeedDiagonal::y_eq_minus_x : preset::SeedDiagonal::y_eq_x;
+    const auto outcome = run(p);
+    CHECK(corner_on_diagonal(outcome.trajectory, other ? -1 : 1) <
+          corner_on_diagonal(outcome.trajectory, other ? 1 : -1) - 4);
+  }
+}
+
 TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or down") {
   for (const bool down : {false, true})
     for (const bool other : {false, true}) {

@@ -187,7 +187,7 @@ TEST_CASE("a rod that turns about the line of its supports is one of many, and s
   file.supports = {{0}, {2, 90, 0, 0}};
   preset::Preset p = network(file);
   CHECK_THAT(run_to_end(p).summary.doubt, Catch::Contains("is one of many"));
-  // a load may hold it
+  // a load may keep it from turning
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 9.81;
   CHECK_THAT(run_to_end(p).summary.doubt, !Catch::Contains("is one of many"));
