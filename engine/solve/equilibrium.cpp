@@ -242,12 +242,24 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
   Eigen::Matrix3Xd dx;
   Descent descent(system, state, options, watch);
   double move = std::numeric_limits<double>::infinity();
-  for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
+  // a rod that winds up takes many short steps: as long as they pay, more are allowed
+  constexpr double pays = 0.05;  // fraction of the energy's fall so far, in most_iterations
+  constexpr int longest = 20;    // times most_iterations
+  double first = 0, last = 0;    // energies at the start, and when more were allowed last
+  int allowed = options.most_iterations;
+  for (report.iterations = 1; report.iterations <= allowed; ++report.iterations) {
     if (watch.cancelled()) {
       report.outcome = Outcome::cancelled;
       return report;
     }
     report.inertia = descent.factorise(move);
+    const double energy = system.assembly().energies.total();
+    if (report.iterations == 1) first = last = energy;
+    if (report.iterations == allowed && last - energy > pays * (first - energy) &&
+        allowed < longest * options.most_iterations) {
+      allowed += options.most_iterations;
+      last = energy;
+    }
     ++system.effort().newton_iterations;
     const bool usable = report.inertia.positive_definite();
     if (usable) system.correction(dx);
@@ -269,7 +281,7 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
       report.outcome = Outcome::reached;
     return report;
   }
-  report.iterations = options.most_iterations;
+  report.iterations = allowed;
   return report;
 }
 

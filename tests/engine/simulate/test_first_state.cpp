@@ -134,3 +134,21 @@ TEST_CASE("a branch whose event coarse meshes have elsewhere is followed on fine
   CHECK_THAT(s.limit_reason, Catch::Contains("branches at progress 0.40"));
   CHECK(s.doubt.empty());
 }
+
+TEST_CASE("a straight piece of a coil winds up to its natural shape, however long the way") {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {150, 0, 0}, {300, 0, 0}};
+  file.rods = {{0, 1, 2}};
+  file.free = {2};
+  file.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
+  preset::Preset p = network(file);
+  p.rod.diameter_mm = 1;
+  p.rod.young_GPa = 80;
+  p.rod.shear_GPa = 30;
+  p.rod.curvature_sideways_per_mm = 0.03;
+  const auto wound = run_to_end(p);
+  CHECK(last_frame(wound).energies.total() < 1e-9);
+  // 300 mm of a circle of 33.3 mm
+  const Eigen::Vector3d tip = last_frame(wound).nodes.col(1);
+  CHECK(std::hypot(tip.x(), tip.y()) < 2 / 0.03 + 0.1);
+}
