@@ -135,7 +135,7 @@ TEST_CASE("a branch whose event coarse meshes have elsewhere is followed on fine
   CHECK(s.doubt.empty());
 }
 
-TEST_CASE("a straight piece of a coil winds up to its natural shape, however long the way") {
+TEST_CASE("a straight piece of a coil winds up to its natural shape, however far that is") {
   preset::NetworkData file;
   file.points = {{0, 0, 0}, {150, 0, 0}, {300, 0, 0}};
   file.rods = {{0, 1, 2}};
@@ -148,7 +148,6 @@ TEST_CASE("a straight piece of a coil winds up to its natural shape, however lon
   p.rod.curvature_sideways_per_mm = 0.03;
   const auto wound = run_to_end(p);
   CHECK(last_frame(wound).energies.total() < 1e-9);
-  // 300 mm of a circle of 33.3 mm
-  const Eigen::Vector3d tip = last_frame(wound).nodes.col(1);
-  CHECK(std::hypot(tip.x(), tip.y()) < 2 / 0.03 + 0.1);
+  // a circle of 33.3 mm
+  CHECK(last_frame(wound).nodes.colwise().norm().maxCoeff() < 2 / 0.03 + 0.1);
 }
