@@ -234,17 +234,15 @@ bool is_minimum(Linearisation& system, const State& state, double EA_scale) {
   return system.shifted(round_off * largest).positive_definite();
 }
 
-}  // namespace
-
-NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
-                      const Watch& watch) {
+/// minimise(), with up to `longest` times the iterations of the options: a rod that winds up takes
+/// many short steps, and as long as they pay, more are allowed.
+NewtonReport minimise_for(int longest, Linearisation& system, State& state,
+                          const MinimiseOptions& options, const Watch& watch) {
   NewtonReport report;
   Eigen::Matrix3Xd dx;
   Descent descent(system, state, options, watch);
   double move = std::numeric_limits<double>::infinity();
-  // a rod that winds up takes many short steps: as long as they pay, more are allowed
   constexpr double pays = 0.05;  // fraction of the energy's fall so far, in most_iterations
-  constexpr int longest = 20;    // times most_iterations
   double first = 0, last = 0;    // energies at the start, and when more were allowed last
   int allowed = options.most_iterations;
   for (report.iterations = 1; report.iterations <= allowed; ++report.iterations) {
@@ -285,9 +283,17 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
   return report;
 }
 
+}  // namespace
+
+NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
+                      const Watch& watch) {
+  return minimise_for(1, system, state, options, watch);
+}
+
 Result<State> minimise_from(Linearisation& system, State state, const Watch& watch,
                             const BranchSwitch& departure) {
-  const NewtonReport down = minimise(system, state, {}, watch);
+  constexpr int longest = 20;
+  const NewtonReport down = minimise_for(longest, system, state, {}, watch);
   if (down.outcome == Outcome::reached) return state;
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
   if (down.outcome == Outcome::lost)

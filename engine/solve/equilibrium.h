@@ -29,7 +29,7 @@ Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const
 
 struct MinimiseOptions {
   double tolerance_mm = 1e-5;
-  int most_iterations = 400;  ///< after these, as many again while the energy falls clearly
+  int most_iterations = 400;
   /// factor of EA; a softer rod leads to a state near that of the actual rods
   double EA_scale = 1;
   /// For states far from any equilibrium: the shift that made the matrix positive definite is
