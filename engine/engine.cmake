@@ -19,12 +19,13 @@ add_custom_command(OUTPUT ${embedded_page}
           -DOUTPUT=${embedded_page} -P ${PROJECT_SOURCE_DIR}/engine/record/embed_page.cmake
   DEPENDS ${page_parts} VERBATIM)
 
-# code that computes for long is in core, elastic, footprint, geometry and solve, but for what computes
-# every frame; the other folders call it
+# code that computes for long is in core, elastic, footprint, geometry and solve, but for solvers that
+# only studies use and what computes every frame; the other folders call it
 file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
 set(light_sources ${engine_sources})
 list(FILTER light_sources INCLUDE REGEX "/(design|formats|preset|record|scene|simulate|study)/")
-list(FILTER light_sources EXCLUDE REGEX "cholmod_solver|contacts|frames_between|frame_forces|shape_measures")
+list(FILTER light_sources EXCLUDE REGEX
+  "cholmod_solver|mountain_pass|multilevel_relaxation|contacts|frames_between|frame_forces|shape_measures")
 list(REMOVE_ITEM engine_sources ${light_sources} ${PROJECT_SOURCE_DIR}/engine/core/version.cpp)
 
 # two small files make the precompiled headers of both kinds, so that nothing else waits for long

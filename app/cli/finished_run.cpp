@@ -281,6 +281,7 @@ Result<int> render(const Options& options, bool no_checksum) {
         "'{}' has pictures of a design, of which 'gridshell render' draws the last state alone, "
         "expected another folder: -o",
         options.input);
+  if (maker == "design") maker = word_of(runs->front().summary.kind);
   TRY_DO(deliver({folder, maker}, drawing_phases(*runs), options.quiet,
                  [&](const fs::path& partial, Progress& progress) {
                    return render_runs(*runs, options, partial, progress);

@@ -246,9 +246,9 @@ void print_result(const Run& run, const fs::path& folder) {
   // if the path ended early, the reason is printed as an error
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
     fmt::print("\n  on its path: {}", at.limit_reason);
-  // the reason of a path has what its meshes do not confirm
+  // the reason has what meshes do not confirm
   if (!at.doubt.empty() && at.limit_reason.find(at.doubt) == std::string::npos)
-    fmt::print("\n  not confirmed: {}", at.doubt);
+    fmt::print("\n  doubt: {}", at.doubt);
   if (!at.contact.empty()) fmt::print("\n  contact: {}", at.contact);
   if (at.contacts > 0)
     fmt::print("\n  its last state has {} interpenetration{}: rods overlap there{}", at.contacts,

@@ -24,7 +24,8 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
 
 /// Follows the actuation to progress 1 for a later task: its segments are `earlier`, without their
 /// states. An actuation that ends earlier is an error, no_equilibrium, "there is no actuated shell
-/// `purpose`: ..."; one whose mesh is too_coarse() is returned as far as it was followed.
+/// `purpose`: ..."; one whose mesh is too_coarse() is returned as far as it was followed,
+/// and one that is formed, with a segment back that ended early, is returned.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view purpose,
                                                const Watch& watch, const RunContext& context = {});

@@ -122,7 +122,6 @@ struct Shown {
 /// Finds where closed rods pass through themselves, by their linking numbers. No state on the path
 /// may show such a contact, if a snap leads past it.
 std::vector<ContactEvent> self_passages(const EquilibriumPath& path) {
-  const At& at = path.at;
   const NestedShell& shell = path.simulation.shell();
   const Model& model = shell.model();
   const Scene& scene = path.simulation.scene();
@@ -157,9 +156,10 @@ std::vector<ContactEvent> self_passages(const EquilibriumPath& path) {
           const double from = before ? shown[b].t : shown[a].t;
           events.push_back(
               {shown[b].segment, 0.5 * (from + shown[b].t), 0.5 * std::abs(shown[b].t - from),
-               fmt::format("{} passed through itself {}{}", name_of(scene.footprint.rods[r]),
-                           before ? "before the first state, " : "",
-                           at(0.5 * (from + shown[b].t), {}))});
+               fmt::format(
+                   "{} passed through itself {}{}", name_of(scene.footprint.rods[r]),
+                   before ? "before the first state, " : "",
+                   path.at_on(path.segments[shown[b].segment])(0.5 * (from + shown[b].t), {}))});
         };
     look(0, turns(0), shown.size() - 1, turns(shown.size() - 1));
   }
@@ -216,6 +216,10 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path) {
       const LoadStep& before =
           (s > 0 ? path.segments[s - 1] : path.earlier.back()).load_steps.back();
       const double t = segment.end();
+      for (const ContactKind kind : kinds)
+        if (const record::Contact* touch = before.contacts.deepest(kind); touch && s == 0)
+          events.push_back(
+              {0, t, 0, text_of(*touch, scene.footprint) + " touch before it already"});
       for (const ContactKind kind : kinds)
         if (const Bracket step(kind, {t, before.contacts}, {t, steps[0]->contacts}); step.changes())
           events.push_back(step.event(s, scene.footprint,

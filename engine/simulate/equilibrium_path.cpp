@@ -148,7 +148,8 @@ double progress_on(const EquilibriumPath& path, std::size_t segment, double t) {
 }
 
 At EquilibriumPath::at_on(const PathSegment& segment) const {
-  return segment.after && segment.after->actuating ? at_progress : at;
+  const bool moves = segment.after && segment.after->actuating && segment.load_steps.size() > 1;
+  return moves ? at_progress : at;
 }
 
 std::string at_progress(double t, std::optional<double> error) {

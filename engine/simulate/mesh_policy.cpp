@@ -59,9 +59,12 @@ std::string where_worst(const EquilibriumPath& path) {
   const LoadStep* worst = worst_load_step(path);
   if (!worst) return "";
   const double t = worst->point.t;
-  const bool near = std::ranges::any_of(
-      path.segments, [t](const PathSegment& segment) { return near_event(segment, t); });
-  return fmt::format(", {}{}", path.at(t, {}),
+  const auto on = std::ranges::find_if(path.segments, [worst](const PathSegment& segment) {
+    return worst >= segment.load_steps.data() &&
+           worst < segment.load_steps.data() + segment.load_steps.size();
+  });
+  const bool near = near_event(*on, t);
+  return fmt::format(", {}{}", path.at_on(*on)(t, {}),
                      near ? ", next to an event, where a state moves most" : "");
 }
 

@@ -213,7 +213,9 @@ void set_limit(EquilibriumPath& path, const Watch& watch) {
   }
   for (const PathSegment& segment : path.earlier)
     if (segment.report.end != Outcome::reached) {
-      path.limit = record::Limit::no_equilibrium;
+      if (path.limit == record::Limit::none || path.limit == record::Limit::snap)
+        path.limit = at_limit(segment.report.end) ? limit_of(segment.report.end)
+                                                  : record::Limit::no_equilibrium;
       add(later + how_it_ended(segment, path.simulation.scene().max_strain, at_progress));
     }
   if (!path.mesh_disagreement.empty()) add(path.mesh_disagreement);

@@ -192,8 +192,8 @@ std::string turns_freely(const EquilibriumPath& path) {
   const double off = off_free_axis(path.simulation);
   if (!(off > scene.tolerance * scene.length_scale_mm)) return "";
   return fmt::format(
-      "a rod is {:.3g} mm off the line of its supports and turns about it without force: its "
-      "position around that line is one of many",
+      "a rod is {:.3g} mm off the line of its supports or joints and turns about it without "
+      "force: its position around that line is one of many",
       off);
 }
 

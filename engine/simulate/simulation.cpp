@@ -209,6 +209,7 @@ Report Simulation::begin_flat() {
 
 Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
   const CallBegin begin = call_begin();
+  begin_unloaded();
   TRY(t, parameter_of_shortening(shell_->finest(), shell_->motion(), shortening));
   TRY(first, buckled_state(*shell_, *scene_, rods(), *t, watch));
   const Report there = begin_at(*t, *first, watch);
@@ -216,11 +217,13 @@ Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) 
 }
 
 Result<Report> Simulation::begin_on_net(const Watch& watch) {
+  begin_unloaded();
   TRY(rest, state_on_net(*shell_, *scene_, watch));
   return begin_at(1, *rest, watch);
 }
 
 Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
+  begin_unloaded();
   TRY(rest, state_as_drawn(*shell_, *scene_, rods(), watch));
   return begin_at(0, *rest, watch);
 }
@@ -250,6 +253,7 @@ void Simulation::begin_unloaded() {
   cases.clear();
   load_scale_ = 1;
   apply_field({});
+  shell_->actuate(0, {}, load_scale_);
 }
 
 /// Sets the progress of the scene's motion and clears displacements of edge points.

@@ -139,7 +139,9 @@ Report Simulation::release(int joint, const Watch& watch) {
   const Checkpoint constrained = save();
   Report done =
       drive({.constraints = left, .load = load, .field = {1, -1}}, std::move(force), watch);
-  if (done.end == Outcome::reached || at_limit(done.end) || watch.cancelled()) return done;
+  if (done.end == Outcome::reached || done.end == Outcome::too_coarse || at_limit(done.end) ||
+      watch.cancelled())
+    return done;
   // the state was stable with the constraint but is not under the same force: the constraint is
   // removed, and the energy minimised
   restore(constrained);
@@ -149,7 +151,7 @@ Report Simulation::release(int joint, const Watch& watch) {
   first_stiffness_ = 0;
   const auto found = minimise_from(shell_->system(), shell_->state().levels.back(), watch);
   Outcome end = Outcome::not_converged;
-  if (found) end = shell_->start(0, *found, watch).end;
+  if (found) end = shell_->start(1, *found, watch).end;
   if (end != Outcome::reached) restore(constrained);
   done.certificate = certificate();
   done.end = watch.cancelled() ? Outcome::cancelled : end;

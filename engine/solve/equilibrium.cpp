@@ -242,8 +242,8 @@ NewtonReport minimise_for(int longest, Linearisation& system, State& state,
   Eigen::Matrix3Xd dx;
   Descent descent(system, state, options, watch);
   double move = std::numeric_limits<double>::infinity();
-  constexpr double pays = 0.05;  // fraction of the energy's fall so far, in most_iterations
-  double first = 0, last = 0;    // energies at the start, and when more were allowed last
+  constexpr double pays = 0.05;  // part of the energy's fall that is in the second half
+  double first = 0, half = 0;    // energies at the start and after half of the allowed iterations
   int allowed = options.most_iterations;
   for (report.iterations = 1; report.iterations <= allowed; ++report.iterations) {
     if (watch.cancelled()) {
@@ -252,12 +252,11 @@ NewtonReport minimise_for(int longest, Linearisation& system, State& state,
     }
     report.inertia = descent.factorise(move);
     const double energy = system.assembly().energies.total();
-    if (report.iterations == 1) first = last = energy;
-    if (report.iterations == allowed && last - energy > pays * (first - energy) &&
-        allowed < longest * options.most_iterations) {
-      allowed += options.most_iterations;
-      last = energy;
-    }
+    if (report.iterations == 1) first = energy;
+    if (report.iterations == allowed / 2) half = energy;
+    if (report.iterations == allowed && half - energy > pays * (first - energy) &&
+        allowed < longest * options.most_iterations)
+      allowed *= 2;
     ++system.effort().newton_iterations;
     const bool usable = report.inertia.positive_definite();
     if (usable) system.correction(dx);
@@ -292,7 +291,7 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
 
 Result<State> minimise_from(Linearisation& system, State state, const Watch& watch,
                             const BranchSwitch& departure) {
-  constexpr int longest = 20;
+  constexpr int longest = 16;
   const NewtonReport down = minimise_for(longest, system, state, {}, watch);
   if (down.outcome == Outcome::reached) return state;
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");

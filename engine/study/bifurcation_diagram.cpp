@@ -283,7 +283,10 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   Result<BranchStart> start = stopped();
   if (preset.indentation.requested())
     start = simulate::prepare_push(scene, preset.indentation, plan, watch)
-                .map([](simulate::EquilibriumPath pushed) {
+                .and_then([](simulate::EquilibriumPath pushed) -> Result<BranchStart> {
+                  if (pushed.earlier.front().report.end != Outcome::reached)
+                    return fail(Fault::no_equilibrium,
+                                "how the flat state leads to the shell is not known");
                   return BranchStart{std::move(pushed.simulation), 0, 1, true};
                 });
   else
