@@ -47,9 +47,10 @@ Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before, con
   TRY(old_names, names_in(before));
   TRY(new_names, names_in(after));
   std::set<fs::path> all = *old_names;
-  if (!selected) all.insert(new_names->begin(), new_names->end());
   // of runs that were not made again nothing is known: `update` must not remove their pictures
-  if (selected)
+  if (!selected)
+    all.insert(new_names->begin(), new_names->end());
+  else
     std::erase_if(all, [&](const fs::path& name) {
       return name.has_parent_path() && !fs::is_directory(after / *name.begin());
     });
@@ -146,13 +147,13 @@ Result<bool> compare_folders(const CompareOptions& options) {
 
 Result<int> compare(const CompareOptions& options) {
   const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
-  std::error_code unknown;
-  for (const std::string& given : {options.a, options.b})
-    if (a != b && fs::status(given, unknown).type() == fs::file_type::not_found)
-      return invalid("'{}' does not exist", given);
-  if (a != b)
+  if (a != b) {
+    std::error_code unknown;
+    for (const std::string& given : {options.a, options.b})
+      if (!fs::exists(given, unknown) && !unknown) return invalid("'{}' does not exist", given);
     return invalid("'{}' is a folder and '{}' is none: compare two pictures or two folders",
                    a ? options.a : options.b, a ? options.b : options.a);
+  }
   if (options.update && (!a || options.why.empty()))
     return invalid(a ? "--update needs --why \"...\": the reason is saved with the pictures"
                      : "--update is for folders of saved pictures");

@@ -367,17 +367,15 @@ Result<int> make_report(ReportOptions options) {
     return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
   TRY_DO(check_output_file(options.to));
   TRY(runs, read_runs(options.input, {}, options.no_checksum));
-  for (const Run& run : *runs)
+  for (const Run& run : *runs) {
+    const std::string folder = folder_of(options.input, run.name).string();
     if (!run.summary.finished)
       return invalid(
-          "'{}' is not finished, and a report is of a finished run: --resume continues it",
-          folder_of(options.input, run.name).string());
-  for (const Run& run : *runs)
+          "'{}' is not finished, and a report is of a finished run: --resume continues it", folder);
     if (run.preset.jitter.requested())
-      return invalid(
-          "'{}' has several states of a shell, and a report is of one: expected a run without "
-          "[jitter]",
-          folder_of(options.input, run.name).string());
+      return invalid("'{}' has several states, expected a run without [jitter]: a report is of one",
+                     folder);
+  }
   TRY(maker, PictureMaker::create("auto", runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {

@@ -110,8 +110,8 @@ void DesignShell::set_legs(const ShellEnds& ends) {
     std::vector<double> before;
     for (const int bend : leg.bends)
       before.push_back(lengths_at(model_, model_.bends[std::size_t(bend)]));
-    for (const int k : leg.edges) {
-      ModelEdge& edge = model_.edges[std::size_t(k)];
+    for (const int number : leg.edges) {
+      ModelEdge& edge = model_.edges[std::size_t(number)];
       const double weight = 0.5 * leg.weight_N_per_mm * (fraction - edge.rest_length);
       for (const int node : {edge.from, edge.to})
         if (weight != 0) model_.loads[std::size_t(node)].force.z() -= weight;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -109,20 +110,24 @@ UnitCost measured_cost(const Scene& scene, int edges) {
   return {std::max(0.0, std::ranges::min(both) - factor), factor};
 }
 
-/// The cost of a mesh of `edges`, from those of the coarsest one and of twice its edges: a part for
-/// the joints, which all meshes have, and a part in proportion to the edges.
-UnitCost unit_cost(const Scene& scene, int coarsest, int edges) {
+/// The costs of the coarsest mesh and of one of `edges`, from those of the coarsest one and of
+/// twice its edges: a part for the joints, which all meshes have, and a part in proportion to the
+/// edges.
+std::pair<UnitCost, UnitCost> unit_costs(const Scene& scene, int coarsest, int edges) {
   // a mesh too large to be measured takes as long as 96 and 192 rods per direction with version 0.2
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
-  const double unknowns = unknowns_of(scene.footprint, scene.rod_model, edges);
-  if (unknowns_of(scene.footprint, scene.rod_model, coarsest) > large)
-    return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
+  const auto unknowns = [&](int of) { return unknowns_of(scene.footprint, scene.rod_model, of); };
+  const auto of_large_mesh = [&](int of) -> UnitCost {
+    return {an_unknown * unknowns(of), of_large * std::pow(unknowns(of), power)};
+  };
+  if (unknowns(coarsest) > large) return {of_large_mesh(coarsest), of_large_mesh(edges)};
   const UnitCost one = measured_cost(scene, coarsest);
-  if (edges == coarsest) return one;
+  if (edges == coarsest) return {one, one};
   const UnitCost two = measured_cost(scene, 2 * coarsest);
   const double times = double(edges) / coarsest - 1;
-  return {one.assembly + times * std::max(0.0, two.assembly - one.assembly),
-          one.factorisation + times * std::max(0.0, two.factorisation - one.factorisation)};
+  return {one,
+          {one.assembly + times * std::max(0.0, two.assembly - one.assembly),
+           one.factorisation + times * std::max(0.0, two.factorisation - one.factorisation)}};
 }
 
 /// Time of a path in factorisations of its finest mesh, as measured on the shipped presets: from a
@@ -159,8 +164,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   // assemblies there
   constexpr double corrections = 1.3, tellings = 4.9, start_s = 0.04;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
-  const UnitCost coarse = unit_cost(scene, edges.front(), edges.front()),
-                 fine = unit_cost(scene, edges.front(), edges.back());
+  const auto [coarse, fine] = unit_costs(scene, edges.front(), edges.back());
   const double frame = tellings * fine.assembly + corrections * coarse.both();
   // a chosen branch is confirmed on meshes of twice the edges; bolts and braces are added in
   // equilibrium, on new meshes

@@ -2,6 +2,7 @@
 // coincide with their own images.
 #include "engine/simulate/first_state.h"
 
+#include "tests/engine/round_cantilever.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -136,15 +137,7 @@ TEST_CASE("a branch whose event coarse meshes have elsewhere is followed on fine
 }
 
 TEST_CASE("a straight piece of a coil winds up to its natural shape, however far that is") {
-  preset::NetworkData file;
-  file.points = {{0, 0, 0}, {150, 0, 0}, {300, 0, 0}};
-  file.rods = {{0, 1, 2}};
-  file.free = {2};
-  file.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
-  preset::Preset p = network(file);
-  p.rod.diameter_mm = 1;
-  p.rod.young_GPa = 80;
-  p.rod.shear_GPa = 30;
+  preset::Preset p = round_cantilever(300);
   p.rod.curvature_sideways_per_mm = 0.03;
   const auto wound = run_to_end(p);
   CHECK(last_frame(wound).energies.total() < 1e-9);

@@ -174,8 +174,8 @@ TEST_CASE("a shell that snaps when its joint is released says so, and moves on f
              Catch::StartsWith("step 1 (push [0, 0]): the path lost its stability at 0.7556") &&
                  Catch::Contains("; step 2 (release): the path lost its stability at 0.0000 "));
   CHECK_THAT(released.summary.steps[1], Catch::Contains("snap to another state"));
-  // joints that touched under the push no longer do
   CHECK(released.summary.error_estimate_mm < 0.01);
+  // joints that touched under the push no longer do
   CHECK_THAT(released.summary.contact, Catch::Contains("step 2 (release): joints no longer touch"));
   preset.step = {aside, move(0.98), of(StepKind::release), move(0.8)};
   const auto moved = run(preset);

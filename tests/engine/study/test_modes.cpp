@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "tests/engine/round_cantilever.h"
 #include "tests/presets.h"
 #include "tests/results.h"
 
@@ -44,15 +45,7 @@ TEST_CASE("modes: frequencies of a shell lie within their errors of finer meshes
 }
 
 TEST_CASE("modes: a round cantilever vibrates to either side at the frequency of a beam") {
-  preset::NetworkData file;
-  file.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}};
-  file.rods = {{0, 1, 2}};
-  file.free = {2};
-  file.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
-  preset::Preset p = network(file);
-  p.rod.diameter_mm = 1;
-  p.rod.young_GPa = 80;
-  p.rod.shear_GPa = 30;
+  preset::Preset p = round_cantilever(100);
   p.rod.density_kg_m3 = 8000;
   const double EI = 80e3 * M_PI / 64, mass = 8e-9 * M_PI / 4,
                exact = std::pow(1.8751040687, 2) / (2 * M_PI) * std::sqrt(EI / mass) / 1e4;
