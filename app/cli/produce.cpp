@@ -89,7 +89,8 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
   if (preset.contact.model == preset::ContactModel::barrier)
     return "what may help: a wider [contact] gap_mm, or more stiffness_N_per_mm";
   const int edges = preset.accuracy.edges_per_segment;
-  return fmt::format("what may help: --set accuracy.edges_per_segment={}{}", std::max(8, 2 * edges),
+  return fmt::format("what may help: --set accuracy.edges_per_segment={}{}",
+                     edges == 0 ? 16 : 2 * edges,
                      edges == 0 ? ", which asks for no tolerance" : "");
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 // mean shortenings at which the first buckled state is searched for, until it is connected to the
 // flat state
-constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
+constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025, flat_shortening};
 
 /// Follows the path from the first state back towards the flat one. Returns whether it got there.
 bool follow_back(EquilibriumPath& path, const BifurcationPolicy& leaving, const Watch& watch) {

@@ -106,8 +106,10 @@ class PathSampler {
     const PathSegment& last = path_.segments.back();
     const double t = last.path_end->state.t;
     go_to_end();
+    const double residual_N = simulation_.certificate().residual_N;
     // the path converges to its own tolerance, a frame to round-off
-    if (simulation_.sample(t, last.load_steps.back(), false, watch_).end != Outcome::reached)
+    if (simulation_.sample(t, last.load_steps.back(), false, watch_).end != Outcome::reached ||
+        simulation_.certificate().residual_N > residual_N)
       go_to_end();
     PathSample there{index, path_.segments.size() - 1, t};
     there.progress = progress_on(path_, there.segment, t);

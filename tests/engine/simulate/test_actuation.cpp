@@ -188,6 +188,21 @@ TEST_CASE("a boundary that takes no rod out of the flat is refused before a run"
   CHECK(simulate::plan(small_shell()));
 }
 
+// Its short rods are so thick that they buckle far later than the long ones: the dome of all rods
+// has a limit point between a shortening of 0.0025 and the flat.
+TEST_CASE("a small grid of thick wire is followed from the flat to the dome") {
+  preset::Preset p = circle(8, 76, 57);
+  p.rod.diameter_mm = 1;
+  p.limits.max_strain = 0.05;
+  p.movie.frames = 12;
+  const auto outcome = run(p);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  REQUIRE(outcome.trajectory.frames.size() == 12);
+  for (const record::Frame& frame : outcome.trajectory.frames) CHECK(frame.negative_pivots == 0);
+  CHECK(outcome.trajectory.frames[1].progress < 0.1);
+  CHECK_THAT(outcome.trajectory.frames.back().height_mm, Catch::WithinAbs(33.09, 0.05));
+}
+
 TEST_CASE(
     "a still of the flat alone is the flat, and of rods with natural curvature there is none") {
   preset::Preset p = circle(4, 42, 36);
