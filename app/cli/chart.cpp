@@ -80,7 +80,7 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& 
       "amplitude is of the displacement that breaks them\n",
       found->edges_per_segment, found->symmetry_order);
   append_branches(*found, findings);
-  if (!found->all_followed) findings.text += "there are more branches than were followed\n";
+  if (!found->all_followed) findings.text += "not all branches were followed to their ends\n";
   return findings;
 }
 

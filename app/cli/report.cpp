@@ -98,6 +98,14 @@ std::string material_text(const preset::Rod& rod) {
   return render::spaced(std::string(word_of(rod.material)));
 }
 
+/// The materials of all rods.
+std::string materials_text(const preset::Preset& preset) {
+  std::string text = material_text(preset.rod);
+  if (const std::string v = material_text(preset.rod_v); preset.rod_v.differs && v != text)
+    text = "u: " + text + ", v: " + v;
+  return preset.footprint.file.own.empty() ? text : text + "; some rods have values of their own";
+}
+
 /// The extent of the rods' ends along x and y; of all rods, where none ends on a boundary.
 std::string plan_dimensions(const record::Layout& layout, const record::Frame& last) {
   const auto& ends = layout.edge_points;
@@ -111,7 +119,7 @@ void add_geometry(Sheets& sheets, const Run& run, const record::Frame& last,
   const record::Summary& summary = run.summary;
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
-       {"section and material", plan.section_text() + ", " + material_text(run.preset.rod)},
+       {"section and material", plan.section_text() + "; " + materials_text(run.preset)},
        {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
        {"plan dimensions", plan_dimensions(run.trajectory.layout, last)},
        {"rise", with_unit(summary.height_mm, "mm")},

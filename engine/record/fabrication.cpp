@@ -126,9 +126,32 @@ Drawing footprint_drawing(const FabricationPlan& work) {
   return drawing;
 }
 
+std::string CutSection::text() const {
+  std::string all = lath() ? fmt::format("{:g} x {:g} mm", width_mm, thickness_mm)
+                           : fmt::format("{:g} mm diameter", diameter_mm);
+  if (wall_mm > 0) all += fmt::format(", {:g} mm wall", wall_mm);
+  return all;
+}
+
 std::string FabricationPlan::section_text() const {
-  return width_mm > 0 ? fmt::format("laths of {:g} x {:g} mm", width_mm, thickness_mm)
-                      : fmt::format("rods of {:g} mm diameter", rod_diameter_mm);
+  constexpr std::size_t most = 4;  // sections that are named; the cut list has them all
+  std::vector<std::pair<CutSection, int>> kinds;
+  for (const CutRod& rod : rods) {
+    const auto known = std::ranges::find(kinds, rod.section, &std::pair<CutSection, int>::first);
+    if (known != kinds.end())
+      ++known->second;
+    else
+      kinds.emplace_back(rod.section, 1);
+  }
+  const bool laths =
+      std::ranges::all_of(rods, [](const CutRod& rod) { return rod.section.lath(); });
+  const std::string noun = laths ? "laths" : "rods";
+  if (kinds.size() == 1) return noun + " of " + kinds[0].first.text();
+  if (kinds.size() > most) return fmt::format("{} of {} sections", noun, kinds.size());
+  std::string text = noun + ":";
+  for (const auto& [section, count] : kinds)
+    text += fmt::format("{} {} of {}", text.back() == ':' ? "" : ",", count, section.text());
+  return text;
 }
 
 std::pair<double, double> FabricationPlan::heights_of_pins() const {
@@ -164,7 +187,7 @@ Result<Drawing> plate_drawing(const FabricationPlan& work) {
   for (const Pin& pin : work.pins) {
     if (!pin.in_ring) continue;
     const Eigen::Vector2d at = pin.at.head<2>();
-    holes.circles.push_back({at, work.rod_diameter_mm / 2});
+    holes.circles.push_back({at, pin.hole_mm / 2});
     labels.texts.push_back(
         {at + 2 * label_height_mm * (at - middle).normalized(), 0.6 * label_height_mm, pin.name});
   }
@@ -174,14 +197,15 @@ Result<Drawing> plate_drawing(const FabricationPlan& work) {
 std::string cut_list_csv(const FabricationPlan& work) {
   record::CsvWriter csv;
   csv.line("rod", "length_mm", "joint_marks_mm", "pin_marks_mm", "leg_begin_mm", "leg_end_mm",
-           "splices_mm", "note");
+           "splices_mm", "note", "section");
   for (const CutRod& rod : work.rods)
     csv.line(rod.name, rod.length_mm, space_separated(rod.joint_marks_mm),
              space_separated(rod.pin_marks_mm), rod.leg_begin_mm, rod.leg_end_mm,
              space_separated(rod.splices_mm),
              rod.hard_to_build()
                  ? fmt::format("a leg below {:g} mm: hard to build", shortest_leg_mm)
-                 : std::string());
+                 : std::string(),
+             rod.section.text());
   return std::move(csv).text();
 }
 

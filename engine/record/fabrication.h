@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -16,9 +17,23 @@ namespace gridshell::exports {
 /// a cylinder of 3 mm [Baek 2018, 'Materials'].
 inline constexpr double shortest_leg_mm = 3;
 
+/// Section of a rod: a circle or, where it has a width, a rectangle.
+struct CutSection {
+  double diameter_mm = 0, width_mm = 0, thickness_mm = 0;
+  double wall_mm = 0;  ///< of a tube; 0: solid
+
+  bool lath() const { return width_mm > 0; }
+  /// Diameter of the hole that it needs; that of a rectangle is its diagonal.
+  double hole_mm() const { return lath() ? std::hypot(width_mm, thickness_mm) : diameter_mm; }
+  /// "0.254 mm diameter", "60 x 30 mm", "50 mm diameter, 3 mm wall".
+  std::string text() const;
+  bool operator==(const CutSection&) const = default;
+};
+
 /// One rod as it is cut. Positions along it count from its start; tail and leg are included.
 struct CutRod {
   std::string name;  ///< "u-3": its family and index
+  CutSection section{};
   double length_mm = 0;
   std::vector<double> joint_marks_mm;  ///< positions of its joints
   std::vector<double> pin_marks_mm;    ///< positions of its edge points that are not its ends
@@ -31,7 +46,6 @@ struct CutRod {
   bool free_begin = false, free_end = false;  ///< whether the end is not pinned
 
   /// Whether a leg leaves no room for a joint.
-
   bool hard_to_build() const {
     return leg_begin_mm < shortest_leg_mm || leg_end_mm < shortest_leg_mm;
   }
@@ -47,13 +61,13 @@ struct Pin {
   std::string name;     ///< pin_name(); in the second ring with ", far" after it
   Eigen::Vector3d at;   ///< position, mm
   bool in_ring = true;  ///< whether it is on the actuated boundary, not in the second ring
+  double hole_mm = 0;   ///< CutSection::hole_mm() of its rod
 };
 
 /// The complete plan.
 struct FabricationPlan {
   std::string title;
-  double spacing_mm = 0, rod_diameter_mm = 0;
-  double width_mm = 0, thickness_mm = 0;  ///< section of laths; 0: the rods are round
+  double spacing_mm = 0;
   /// What the builder does after the ends are pinned, as sentences.
   std::vector<std::string> hand = {};
   std::vector<CutRod> rods;
@@ -72,7 +86,8 @@ struct FabricationPlan {
   /// families are in separate quarters.
   Eigen::Vector2d label_position(const CutRod& rod, double away) const;
   double total_length_mm() const;
-  /// The rods' section: "laths of 60 x 30 mm", "rods of 0.254 mm diameter".
+  /// The rods' sections: "laths of 60 x 30 mm", "rods: 12 of 0.3 mm diameter, 12 of 0.9 mm
+  /// diameter".
   std::string section_text() const;
   /// Heights of the lowest and the highest pin of the ring; without pins (+infinity, -infinity).
   std::pair<double, double> heights_of_pins() const;
@@ -97,14 +112,14 @@ Result<FabricationPlan> spliced(FabricationPlan plan, double stock_mm);
 /// each rod at its edge points).
 Drawing footprint_drawing(const FabricationPlan& work);
 
-/// Drawing of the plate with the pins: the actuated boundary and a hole of the rods' diameter for
+/// Drawing of the plate with the pins: the actuated boundary and a hole for its rod at
 /// each pin of the ring. Layers: `boundary`, `holes`, `labels`. Errors (bad_input): there is no
 /// pin, or the pins are not in one horizontal plane.
 Result<Drawing> plate_drawing(const FabricationPlan& work);
 
 /// The cut list, one row per rod, with the columns
-/// `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,splices_mm,note`; marks are
-/// measured from the rod's start and separated by blanks.
+/// `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,splices_mm,note,section`;
+/// marks are measured from the rod's start and separated by blanks.
 std::string cut_list_csv(const FabricationPlan& work);
 
 /// All pins, also those of the second ring, with the columns `pin,ring,x_mm,y_mm,z_mm`.

@@ -175,10 +175,11 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const Family family = footprint.rods[r].family;
-    for (std::size_t k = 1; k + 1 < node.size(); ++k) {
-      const int joint = mesh.joint_of(node[k]);
+    const bool ring = node.front() == node.back();
+    for (std::size_t k = ring ? 0 : 1; k + 1 < node.size(); ++k) {
+      const int joint = mesh.joint_of(node[k]), last = node[k > 0 ? k - 1 : node.size() - 2];
       if (joint < 0) continue;
-      const Eigen::Vector3d before = x.col(node[k]) - x.col(node[k - 1]);
+      const Eigen::Vector3d before = x.col(node[k]) - x.col(last);
       const Eigen::Vector3d after = x.col(node[k + 1]) - x.col(node[k]);
       const double l1 = before.norm(), l2 = after.norm();
       const Eigen::Vector3d along = (before * (l2 / l1) + after * (l1 / l2)).normalized();
@@ -187,7 +188,7 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
         continue;
       }
       first.resize(std::size_t(mesh.joints));
-      put_other(along, mesh.flat.col(node[k + 1]) - mesh.flat.col(node[k - 1]), joint,
+      put_other(along, mesh.flat.col(node[k + 1]) - mesh.flat.col(last), joint,
                 first[std::size_t(joint)], tangents);
     }
   }

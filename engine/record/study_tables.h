@@ -104,9 +104,10 @@ enum class BranchEvent {
   none,
   bifurcation,  ///< stability changes and the path continues: branches cross
   turn,         ///< a limit point (fold)
-  joins,        ///< the branch meets one that was followed before
+  joins,        ///< the branch meets one that was followed before, or its own beginning
   locking,      ///< the rods reach the strain limit: the branch ends
   lost,         ///< the branch could not be followed further
+  unfinished,   ///< the branch goes on, but was followed for the largest number of steps
 };
 constexpr auto words(BranchEvent) { return names_except<BranchEvent>({{BranchEvent::none, ""}}); }
 

@@ -64,47 +64,6 @@ preset::Rod rod_of(const preset::Preset& preset, const FootprintRod& drawn) {
   return drawn.family == Family::v && preset.rod_v.differs ? preset.rod_v : preset.rod;
 }
 
-/// All rods, with the diameters of `[rod] table`.
-Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Footprint& footprint) {
-  std::vector<preset::Rod> rods;
-  for (const FootprintRod& one : footprint.rods) rods.push_back(rod_of(preset, one));
-  std::vector<bool> named(rods.size(), false);
-  for (const auto& row : preset.rod_table) {
-    const Family family = row[0] == 0 ? Family::u : Family::v;
-    const auto wrong = [&](const std::string& what) {
-      return invalid("[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1], what);
-    };
-    if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
-      return wrong(fmt::format(
-          "got a diameter of {:g} mm, expected above 0 and less than [footprint] spacing_mm = {:g}",
-          row[2], preset.footprint.spacing_mm));
-    // if there are several rods on one line, the first row belongs to the first rod
-    std::size_t at = 0;
-    while (at < rods.size() &&
-           (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
-      ++at;
-    if (at == rods.size())
-      return wrong("got no such rod, or more rows than the footprint has of it");
-    if (rods[at].rectangular()) return wrong("got a diameter of a rectangular rod, expected none");
-    named[at] = true;
-    rods[at].diameter_mm = row[2];
-  }
-  // a rod with a diameter of its own has the wall of all
-  for (std::size_t r = 0; r < rods.size(); ++r) {
-    const FootprintRod& drawn = footprint.rods[r];
-    if (rods[r].wall_fits()) continue;
-    const std::string name =
-        drawn.number >= 0
-            ? fmt::format("rods[{}]", drawn.number)
-            : fmt::format("{}-rod {}", drawn.family == Family::u ? "u" : "v", drawn.index);
-    return invalid(
-        "[rod] wall_mm: got {:g} mm for {} of {:g} mm diameter, which is then not hollow, expected "
-        "below {:g}",
-        rods[r].wall_mm, name, rods[r].diameter_mm, 0.5 * rods[r].thinnest_mm());
-  }
-  return rods;
-}
-
 /// Tangent of a rod at a joint as drawn, not normalised: the mean of both sides at a corner.
 Eigen::Vector3d tangent_through(const FootprintRod& rod, int joint) {
   const auto at = std::ranges::find(rod.joints, joint) - rod.joints.begin();
@@ -151,6 +110,46 @@ Result<void> check_crossings(Scene& scene) {
 }
 
 }  // namespace
+
+Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Footprint& footprint) {
+  std::vector<preset::Rod> rods;
+  for (const FootprintRod& one : footprint.rods) rods.push_back(rod_of(preset, one));
+  std::vector<bool> named(rods.size(), false);
+  for (const auto& row : preset.rod_table) {
+    const Family family = row[0] == 0 ? Family::u : Family::v;
+    const auto wrong = [&](const std::string& what) {
+      return invalid("[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1], what);
+    };
+    if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
+      return wrong(fmt::format(
+          "got a diameter of {:g} mm, expected above 0 and less than [footprint] spacing_mm = {:g}",
+          row[2], preset.footprint.spacing_mm));
+    // if there are several rods on one line, the first row belongs to the first rod
+    std::size_t at = 0;
+    while (at < rods.size() &&
+           (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
+      ++at;
+    if (at == rods.size())
+      return wrong("got no such rod, or more rows than the footprint has of it");
+    if (rods[at].rectangular()) return wrong("got a diameter of a rectangular rod, expected none");
+    named[at] = true;
+    rods[at].diameter_mm = row[2];
+  }
+  // a rod with a diameter of its own has the wall of all
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    const FootprintRod& drawn = footprint.rods[r];
+    if (rods[r].wall_fits()) continue;
+    const std::string name =
+        drawn.number >= 0
+            ? fmt::format("rods[{}]", drawn.number)
+            : fmt::format("{}-rod {}", drawn.family == Family::u ? "u" : "v", drawn.index);
+    return invalid(
+        "[rod] wall_mm: got {:g} mm for {} of {:g} mm diameter, which is then not hollow, expected "
+        "below {:g}",
+        rods[r].wall_mm, name, rods[r].diameter_mm, 0.5 * rods[r].thinnest_mm());
+  }
+  return rods;
+}
 
 Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   const Footprint& footprint = scene.footprint;

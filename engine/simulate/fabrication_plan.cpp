@@ -6,6 +6,7 @@
 
 #include "engine/core/try.h"
 #include "engine/preset/preset.h"
+#include "engine/scene/rods_and_joints.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/frames.h"
 
@@ -15,9 +16,15 @@ namespace {
 using exports::CutRod;
 using exports::Pin;
 
-CutRod cut(const FootprintRod& rod, const Scene& scene) {
+exports::CutSection section_of(const preset::Rod& rod) {
+  if (rod.rectangular()) return {0, rod.width_mm, rod.thickness_mm, rod.wall_mm};
+  return {rod.diameter_mm, 0, 0, rod.wall_mm};
+}
+
+CutRod cut(const FootprintRod& rod, const preset::Rod& made_of, const Scene& scene) {
   CutRod piece;
   piece.name = name_of(rod);
+  piece.section = section_of(made_of);
   const double begin = rod.span.begin - rod.tail_begin, end = rod.span.end + rod.tail_end;
   const auto at = [&](double along) -> Eigen::Vector2d {
     return scene.flat.at(rod.at(along)).head<2>();
@@ -39,15 +46,15 @@ CutRod cut(const FootprintRod& rod, const Scene& scene) {
   return piece;
 }
 
-void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, const Scene& scene,
+void add_pins(const FootprintRod& rod, Eigen::Index r, const CutRod& piece, const Scene& scene,
               std::vector<Pin>& pins) {
   const auto add = [&](bool at_end, RodEnd kind, double tail) {
     if (!is_fixed(kind)) return;
     const Eigen::Index end = 2 * r + at_end;
-    pins.push_back({exports::pin_name(name, at_end), scene.motion.end.col(end), true});
-    if (tail > 0)
-      pins.push_back(
-          {exports::pin_name(name, at_end) + ", far", scene.motion.end_far.col(end), false});
+    const std::string name = exports::pin_name(piece.name, at_end);
+    const double hole = piece.section.hole_mm();
+    pins.push_back({name, scene.motion.end.col(end), true, hole});
+    if (tail > 0) pins.push_back({name + ", far", scene.motion.end_far.col(end), false, hole});
   };
   add(false, rod.begin, rod.tail_begin);
   add(true, rod.end, rod.tail_end);
@@ -73,18 +80,16 @@ std::string hand_text(const preset::Step& step, const Scene& scene) {
 
 Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset) {
   TRY(scene, scene_of(preset));
+  TRY(made_of, rods_of(preset, scene->footprint));
   exports::FabricationPlan work;
   work.title = preset::title_or_name(preset);
   work.spacing_mm = scene->footprint.spacing;
-  work.rod_diameter_mm = scene->rod_diameter_mm;
-  if (preset.rod.rectangular())
-    work.width_mm = preset.rod.width_mm, work.thickness_mm = preset.rod.thickness_mm;
   for (const preset::Step& step : preset.step)
     if (const std::string text = hand_text(step, *scene); !text.empty()) work.hand.push_back(text);
   for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {
     const FootprintRod& rod = scene->footprint.rods[r];
-    work.rods.push_back(cut(rod, *scene));
-    add_pins(rod, Eigen::Index(r), work.rods.back().name, *scene, work.pins);
+    work.rods.push_back(cut(rod, (*made_of)[r], *scene));
+    add_pins(rod, Eigen::Index(r), work.rods.back(), *scene, work.pins);
   }
   for (const FootprintJoint& joint : scene->footprint.joints)
     work.joints.push_back(scene->flat.at({joint.u, joint.v}).head<2>());

@@ -85,6 +85,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
     t_ = 1;
     TRY(net, on_net(*scene_, reference.finest(), reference.model(), reference.motion()));
     net = find_equilibrium(reference.system(), *net, 0.5 * scene_->footprint.spacing, watch);
+    if (watch.cancelled()) return stopped();
     if (!net)
       return tl::unexpected<Error>(lost({Outcome::lost, 1}, "finds no equilibrium near the net"));
     report = reference.start(1, *net, watch);

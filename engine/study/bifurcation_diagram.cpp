@@ -227,7 +227,9 @@ class Diagram {
     made.symmetry_order = symmetry_->order();
     made.original_radius_mm = start_.session.scene().radius_begin_mm;
     made.of_push = start_.of_push;
-    made.all_followed = all_followed_;
+    made.all_followed = all_followed_ && std::ranges::none_of(branches_, [](const Branch& branch) {
+                          return branch.points.back().event == BranchEvent::unfinished;
+                        });
     for (std::size_t k = 0; k < branches_.size(); ++k)
       for (const TracedPoint& point : branches_[k].points)
         made.points.push_back(point_of(int(k), point));

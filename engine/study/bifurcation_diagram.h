@@ -34,7 +34,8 @@ struct TracedPoint {
 using MeetsBranch = std::function<bool(const TracedPoint&)>;
 
 /// Follows a branch from the current point of `path`, which is included, until it leaves the range,
-/// meets another one, reaches the strain limit or is lost. Bifurcations are located by bisection,
+/// meets another one or its own beginning, reaches the strain limit, is lost, or has taken the
+/// largest number of steps. Bifurcations are located by bisection,
 /// limit points by smaller steps; both are among the points. If it is cancelled, the last point has
 /// no event.
 std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
@@ -52,7 +53,7 @@ std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const Pinned
 
 struct BranchesOptions {
   int most_branches = 13;  ///< including the path itself
-  int most_steps = 200;    ///< number of arc steps of a branch
+  int most_steps = 1000;   ///< largest number of arc steps of a branch
 };
 
 /// The bifurcation diagram of a preset on one mesh: its path by arc length, and the branches from
@@ -64,7 +65,8 @@ struct BranchDiagram {
   int symmetry_order = 0;
   double original_radius_mm = record::unknown;  ///< R_o of a circular boundary
   bool of_push = false;                         ///< progress is that of the push
-  bool all_followed = true;                     ///< false: more branches were found than followed
+  /// false: more branches were found than followed, or one was not followed to its end
+  bool all_followed = true;
 };
 
 /// Follows the actuation or, if there is one, the push after it, on the finest initial mesh of the

@@ -1,11 +1,10 @@
-#include "engine/core/dense.h"
-#include "engine/elastic/model.h"
-#include "engine/study/bifurcation_diagram.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/newton.h"
+#include "engine/study/bifurcation_diagram.h"
 
 namespace gridshell::study {
 namespace {
@@ -34,7 +33,8 @@ class Tracer {
     points_.push_back(traced(path_.at()));
     int after_turn = 0;
     for (int k = 0; k < options_.most_steps && !watch_.cancelled(); ++k)
-      if (!step() || (turned_ && ++after_turn > options_.after_turn)) break;
+      if (!step() || (turned_ && ++after_turn > options_.after_turn)) return std::move(points_);
+    end(BranchEvent::unfinished);
     return std::move(points_);
   }
 
@@ -49,6 +49,10 @@ class Tracer {
       return false;
     const double t = path_.at().point.t;
     if (outside(t)) return arrive(t >= options_.to);
+    if (closed(before)) {
+      points_.push_back(points_.front());
+      return end(BranchEvent::joins);
+    }
     points_.push_back(traced(path_.at()));
     if (std::abs(system_.assembly().largest_strain) > options_.max_strain)
       return end(BranchEvent::locking);
@@ -57,15 +61,27 @@ class Tracer {
 
   bool outside(double t) const { return t >= options_.to || t <= options_.from; }
 
+  /// Whether the last step, from `before`, passed the first point of the branch: it is closed.
+  bool closed(const ArcFollower& before) const {
+    constexpr std::size_t first_steps = 4;  // are near the first point
+    constexpr double detour = 1.02;         // over the first point, off the step by a tenth of it
+    const PathPoint &first = points_.front().at, &from = before.at().point, &to = path_.at().point;
+    return points_.size() > first_steps &&
+           length(from, first) + length(first, to) < detour * length(from, to);
+  }
+
+  /// Ends the branch at its last point, which is there twice if it has an event of its own.
   bool end(BranchEvent event) {
-    if (!watch_.cancelled()) points_.back().event = event;
+    if (watch_.cancelled()) return false;
+    if (points_.back().event != BranchEvent::none) points_.push_back(points_.back());
+    points_.back().event = event;
     return false;
   }
 
   /// Continues from `before` in small steps until just past the limit point.
   bool turn(const ArcFollower& before) {
     constexpr int parts = 8;
-    const double step = length_between(before, path_) / parts;
+    const double step = length(before.at().point, path_.at().point) / parts;
     ArcFollower slow = before;
     for (int k = 0; k < 2 * parts; ++k) {
       slow.set_step(step);
@@ -92,7 +108,7 @@ class Tracer {
     constexpr int most = 4;
     ArcFollower low = before;
     const int last = path_.at().inertia.negative_pivots;
-    double left = length_between(before, path_);
+    double left = length(before.at().point, path_.at().point);
     for (int k = 0; k < most && low.at().inertia.negative_pivots != last; ++k) {
       const int here = low.at().inertia.negative_pivots;
       const double smallest = options_.located * left;
@@ -147,8 +163,7 @@ class Tracer {
     return false;
   }
 
-  double length_between(const ArcFollower& a, const ArcFollower& b) const {
-    const PathPoint &from = a.at().point, &to = b.at().point;
+  double length(const PathPoint& from, const PathPoint& to) const {
     const double moved = (to.state.x - from.state.x).squaredNorm() / double(from.state.x.cols());
     const double turned = options_.arc.parameter_mm * (to.t - from.t);
     return std::sqrt(moved + turned * turned);

@@ -135,16 +135,16 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
     const auto inner = eigen_pairs(basis.transpose() * geometric, basis.transpose() * elastic);
     const double before = factor, largest = inner.values[count - 1];
     factor = largest > 0 ? 1 / largest : record::unknown;
-    if (std::abs(factor - before) <= 1e-8 * factor) break;
+    if (std::abs(factor - before) <= 1e-8 * factor) return factor;
     for (Eigen::Index k = 0; k < count; ++k) {
       column = geometric.col(k).reshaped(3, columns);
       system.solve(column);
       basis.col(k) = column.reshaped();
     }
     basis = orthonormal(basis);
-    if (basis.cols() < count) break;
+    if (basis.cols() < count) return factor;
   }
-  return factor;
+  return record::unknown;
 }
 
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
@@ -177,7 +177,6 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   how.after_turn = options.after_turn;
   // past a bifurcation the shell follows another branch
   const auto leaves = [](const TracedPoint&) { return true; };
-  const auto nothing = [](const TracedPoint& point) { return point.event == BranchEvent::none; };
   constexpr int most_attempts = 3;
   for (int attempt = 1;; ++attempt) {
     ArcFollower path(system, motion, how.arc);
@@ -186,14 +185,19 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
       return found;
     }
     found.points = trace(system, motion, std::move(path), how, leaves, watch);
-    const bool ran_out =
-        int(found.points.size()) >= how.most_steps && std::ranges::all_of(found.points, nothing);
+    const auto of_itself = [](const TracedPoint& point) {
+      return point.event != BranchEvent::none && point.event != BranchEvent::unfinished;
+    };
+    const bool ran_out = std::ranges::none_of(found.points, of_itself) &&
+                         found.points.back().event == BranchEvent::unfinished;
     if (!ran_out || attempt == most_attempts || watch.cancelled()) break;
     // the linear estimate is far too low: repeat in longer steps
     for (double* length : {&how.arc.step_mm, &how.arc.largest_mm}) *length *= 8;
   }
   for (TracedPoint& point : found.points)
     if (point.event == BranchEvent::joins) point.event = BranchEvent::bifurcation;
+  if (found.points.back().event == BranchEvent::unfinished)
+    found.points.back().event = BranchEvent::none;
   take_critical(found, system, motion, watch);
   return found;
 }

@@ -18,6 +18,13 @@ namespace {
 
 using record::BranchEvent;
 
+/// Number of points of a path until it loses its stability, that point included.
+std::size_t until_lost(const CriticalLoad& found) {
+  const auto lost = std::ranges::find_if(
+      found.points, [](const TracedPoint& point) { return point.event != BranchEvent::none; });
+  return std::min(found.points.size(), std::size_t(lost - found.points.begin()) + 1);
+}
+
 /// Applies an increasing load case to the meshes of a simulation and follows its path on each.
 class Loading {
  public:
@@ -49,10 +56,12 @@ class Loading {
     return used;
   }
 
-  /// The first factor at which a fibre reaches its rod's strength; NaN: not on this path.
+  /// The first factor at which a fibre reaches its rod's strength; NaN: not until stability is
+  /// lost.
   double strength_factor(int level, const CriticalLoad& found, const std::vector<double>& used) {
-    const auto reached = std::ranges::find_if(used, [](double fraction) { return fraction >= 1; });
-    if (reached == used.end()) return record::unknown;
+    const auto end = used.begin() + std::ptrdiff_t(used.empty() ? 0 : until_lost(found));
+    const auto reached = std::find_if(used.begin(), end, [](double part) { return part >= 1; });
+    if (reached == end) return record::unknown;
     const auto k = std::size_t(reached - used.begin());
     if (k == 0) return found.points[0].at.t;
     const TracedPoint &from = found.points[k - 1], &to = found.points[k];
@@ -131,11 +140,8 @@ void put_points(const std::string& name, const CriticalLoad& found, const std::v
   const auto joints_at = [&](const TracedPoint& point) -> Eigen::Matrix3Xd {
     return point.at.state.x.leftCols(joints);
   };
-  const auto critical = std::ranges::find_if(
-      found.points, [](const TracedPoint& point) { return point.event != BranchEvent::none; });
   const Eigen::Matrix3Xd begin = joints_at(found.points.front());
-  const Eigen::Matrix3Xd moved =
-      joints_at(critical == found.points.end() ? found.points.back() : *critical) - begin;
+  const Eigen::Matrix3Xd moved = joints_at(found.points[until_lost(found) - 1]) - begin;
   Eigen::Index furthest = 0;
   moved.colwise().norm().maxCoeff(&furthest);
   const Eigen::Vector3d along = moved.col(furthest).normalized();
@@ -186,13 +192,17 @@ Result<void> put_imperfections(Loading& loading, Simulation& simulation, int lev
   return {};
 }
 
-/// A factor computed on meshes from coarse to fine (NaN: not on the path of a mesh). It is
-/// extrapolated if `same`, the meshes lose stability by the same event; otherwise it is that of the
-/// finest mesh, with the complete difference as its error.
+/// A factor computed on meshes from coarse to fine (NaN: not on the path of a mesh, and meshes
+/// coarser than that do not count). It is extrapolated if `same`, the meshes lose stability by the
+/// same event; otherwise it is that of the finest mesh, with the complete difference as its error.
 CertifiedVectors certified(const std::vector<double>& factors, bool extrapolate, bool same) {
   std::vector<Eigen::Matrix3Xd> known;
-  for (const double factor : factors)
-    if (std::isfinite(factor)) known.emplace_back(factor * Eigen::Vector3d::UnitX());
+  for (const double factor : factors) {
+    if (std::isfinite(factor))
+      known.emplace_back(factor * Eigen::Vector3d::UnitX());
+    else
+      known.clear();
+  }
   if (!std::isfinite(factors.back()))
     return {Eigen::Vector3d::Constant(record::unknown), record::unknown};
   return certify_vectors(known, extrapolate && same && known.size() > 1, !same);

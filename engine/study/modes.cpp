@@ -21,11 +21,12 @@ struct MeshModes {
 };
 
 /// The row of a mode with lambda = (2 pi f)^2. Lambda is negative for an unstable mode, and so is
-/// the frequency in the table.
+/// the frequency in the table. Of an error of lambda the lower side is larger.
 record::ModeRow row_of(const CertifiedVectors& lambda, double residual) {
+  const auto signed_root = [](double x) { return std::copysign(std::sqrt(std::abs(x)), x); };
   const double value = lambda.value(0, 0), root = std::sqrt(std::abs(value));
-  return {0, std::copysign(root, value) / (2 * M_PI),
-          (std::sqrt(std::abs(value) + lambda.error) - root) / (2 * M_PI), residual};
+  return {0, signed_root(value) / (2 * M_PI),
+          (root - signed_root(std::abs(value) - lambda.error)) / (2 * M_PI), residual};
 }
 
 Result<MeshModes> modes_on(Simulation& simulation, int level, int count, const Watch& watch) {
@@ -62,7 +63,8 @@ double likeness(const Eigen::Matrix3Xd& shape, const MeshModes& mesh, std::size_
   return std::sqrt(square) / shape.norm();
 }
 
-/// For each mode of `fine` the most similar mode of `coarse` that is not yet paired; -1: none.
+/// For each mode of `fine` the most similar mode of `coarse` that is not yet paired; past the last:
+/// none.
 std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse) {
   struct Pair {
     double alike;
@@ -84,17 +86,18 @@ std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse
   return partner;
 }
 
-/// For each mode of the finest mesh its lambda on every mesh, coarse to fine, as the first
-/// component of a vector (for certify_vectors).
+/// For each mode of the finest mesh its lambda on every mesh, coarse to fine, from the coarsest
+/// from which on every mesh has it, as the first component of a vector (for certify_vectors).
 std::vector<std::vector<Eigen::Matrix3Xd>> lambdas_of(const std::vector<MeshModes>& meshes) {
   std::vector<std::vector<Eigen::Matrix3Xd>> of_mode(meshes.back().shapes.size());
   for (const MeshModes& mesh : meshes) {
     const auto partner = partners(meshes.back(), mesh);
     for (std::size_t k = 0; k < of_mode.size(); ++k)
-      // a mesh of few unknowns may have fewer modes
       if (partner[k] < mesh.shapes.size())
         of_mode[k].emplace_back(mesh.found.values[Eigen::Index(partner[k])] *
                                 Eigen::Vector3d::UnitX());
+      else
+        of_mode[k].clear();  // a mesh of few unknowns may have fewer modes
   }
   return of_mode;
 }

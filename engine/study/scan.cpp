@@ -147,8 +147,15 @@ constexpr double least_found_within = 0.9, least_within = 0.6;
 /// nodes.
 Eigen::Vector3d tangent_at(const std::vector<int>& rod, std::size_t k,
                            const Eigen::Matrix3Xd& nodes) {
-  const std::size_t last = rod.size() - 1, from = k > 0 ? k - 1 : 0, to = std::min(k + 1, last);
-  if (k == 0 || k == last) return (nodes.col(rod[to]) - nodes.col(rod[from])).normalized();
+  const bool ring = rod.front() == rod.back();
+  const std::size_t last = rod.size() - 1;
+  const std::size_t from = k > 0  ? k - 1
+                           : ring ? last - 1
+                                  : 0,
+                    to = k < last ? k + 1
+                         : ring   ? 1
+                                  : k;
+  if (from == k || to == k) return (nodes.col(rod[to]) - nodes.col(rod[from])).normalized();
   const Eigen::Vector3d a = nodes.col(rod[k]) - nodes.col(rod[from]),
                         b = nodes.col(rod[to]) - nodes.col(rod[k]);
   return (a.normalized() * b.norm() + b.normalized() * a.norm()).normalized();

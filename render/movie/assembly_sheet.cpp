@@ -75,7 +75,9 @@ std::vector<std::string> steps(const FabricationPlan& work) {
           .maxCoeff();
   const auto spliced =
       std::ranges::count_if(work.rods, [](const CutRod& rod) { return !rod.splices_mm.empty(); });
-  const char* bolt = work.width_mm > 0 ? "bolt" : "tie";
+  const bool laths =
+      std::ranges::any_of(work.rods, [](const CutRod& rod) { return rod.section.lath(); });
+  const char* bolt = laths ? "bolt" : "tie";
   std::vector<std::string> list{
       fmt::format("Cut {} {}, {:.2f} m in all, to the lengths of the cut list{}; write its name on "
                   "each.",

@@ -58,17 +58,17 @@ CutRod turned(CutRod rod) {
   return rod;
 }
 
-/// Number, names, length and marks of equal rods; names of rods that are measured from their other
-/// end have a *.
+/// Number, names, section, length and marks of equal rods; names of rods that are measured from
+/// their other end have a *.
 std::vector<TableRow> cut_list(const FabricationPlan& work) {
   std::vector<TableRow> rows;
   std::vector<int> numbers;
   for (const CutRod& rod : work.rods) {
-    const std::string length = fmt::format("{:.1f}", rod.length_mm), marks = marks_of(rod),
-                      mirrored = marks_of(turned(rod));
+    const std::string section = rod.section.text(), length = fmt::format("{:.1f}", rod.length_mm),
+                      marks = marks_of(rod), mirrored = marks_of(turned(rod));
     const auto equal = [&](const std::string& as) {
       return std::ranges::find_if(rows, [&](const TableRow& row) {
-        return row.cells[2] == length && row.cells[3] == as &&
+        return row.cells[2] == section && row.cells[3] == length && row.cells[4] == as &&
                row.highlighted == rod.hard_to_build();
       });
     };
@@ -76,7 +76,7 @@ std::vector<TableRow> cut_list(const FabricationPlan& work) {
     const bool from_other_end = same == rows.end() && equal(mirrored) != rows.end();
     if (from_other_end) same = equal(mirrored);
     if (same == rows.end()) {
-      rows.push_back({{"", rod.name, length, marks}, rod.hard_to_build()});
+      rows.push_back({{"", rod.name, section, length, marks}, rod.hard_to_build()});
       numbers.push_back(1);
       continue;
     }
@@ -234,6 +234,7 @@ void add_cut_list(Sheets& sheets, const FabricationPlan& work) {
   std::vector<TableRow> rows = cut_list(work);
   sheets.table({{"number", 36},
                 {"rods", 110, AlignX::left},
+                {"section", 70, AlignX::left},
                 {"length (mm)", 60},
                 {"joints (mm)", 0, AlignX::left}},
                rows);

@@ -68,8 +68,8 @@ class Sheets {
   std::vector<Item> items_;
 };
 
-// A cut list has one row for all rods of one length with the same marks, from either end: their
-// number, names, length and marks.
+// A cut list has one row for all rods of one section and length with the same marks, from either
+// end: their number, names, section, length and marks.
 
 /// The rows of the cut list as text, one per line.
 std::string cut_list_text(const exports::FabricationPlan& work);

@@ -1,4 +1,6 @@
 // The fabrication plan has the model's own lengths and positions.
+#include <map>
+
 #include "engine/footprint/mesh.h"
 #include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
@@ -109,10 +111,32 @@ TEST_CASE("rods longer than the stock are spliced in the middle between joints")
     }
     CHECK(rod.length_mm - from <= 100);
   }
-  CHECK_THAT(exports::cut_list_csv(work), Catch::Contains("leg_end_mm,splices_mm,note"));
+  CHECK_THAT(exports::cut_list_csv(work), Catch::Contains("leg_end_mm,splices_mm,note,section"));
   preset.figure.stock_mm = 8;
   CHECK_THAT(refusal(simulate::fabrication_plan_of(preset)),
              Catch::Contains("stock_mm: got 8, expected more"));
+}
+
+TEST_CASE("rods of several sections are named, cut and pinned with their own") {
+  preset::Preset preset = paper_circle();
+  preset.rod_v.differs = true;
+  preset.rod_v.diameter_mm = 0.9;
+  preset.rod_table = {{0, 0, 0.5}};
+  const FabricationPlan work = made(preset);
+  CHECK(work.section_text() ==
+        "rods: 11 of 0.254 mm diameter, 1 of 0.5 mm diameter, 12 of 0.9 mm diameter");
+  CHECK_THAT(exports::cut_list_csv(work), Catch::Contains("0.9 mm diameter\n"));
+  const exports::Drawing plate = value_of(exports::plate_drawing(work));
+  std::map<double, int> holes;
+  for (const exports::DrawnCircle& hole : plate.layers[1].circles) ++holes[2 * hole.radius_mm];
+  const std::map<double, int> expected{{0.254, 22}, {0.5, 2}, {0.9, 24}};
+  CHECK(holes == expected);
+  // a lath turns in a hole of its diagonal
+  preset = paper_circle();
+  preset.rod.width_mm = 4, preset.rod.thickness_mm = 3;
+  preset.rod.shear_GPa = 30;
+  CHECK(made(preset).section_text() == "laths of 4 x 3 mm");
+  CHECK(value_of(exports::plate_drawing(made(preset))).layers[1].circles[0].radius_mm == 2.5);
 }
 
 TEST_CASE("what is cut in tenths of a millimetre adds up to its rod") {

@@ -238,6 +238,31 @@ TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
   CHECK(trajectory.frames.back().depth_mm < 150);
 }
 
+TEST_CASE("a ring is pushed at any of its joints, wherever its drawing begins") {
+  constexpr int points = 16;
+  const auto pushed = [](int begin) {
+    preset::NetworkData file;
+    for (int k = 0; k < points; ++k) {
+      const double angle = 2 * M_PI * k / points;
+      file.points.push_back({40 * std::cos(angle), 40 * std::sin(angle), 0});
+    }
+    file.points.insert(file.points.end(),
+                       {{-80, 0, 0}, {80, 0, 0}, {0, -80, 0}, {0, 80, 0}, {0, 0, 0}});
+    file.rods.resize(1);
+    for (int k = 0; k <= points; ++k) file.rods[0].push_back((begin + k) % points);
+    file.rods.insert(file.rods.end(), {{16, 8, 20, 0, 17}, {18, 12, 20, 4, 19}});
+    preset::Preset p = network(file, 4);
+    p.rod.shear_GPa = 31;
+    p.actuation.scale = 0.93;
+    p.indentation.joint = {0, 0};
+    p.indentation.depth_mm = 1;
+    return run_to_end(p).trajectory.frames.back();
+  };
+  const record::Frame at_begin = pushed(0), inside = pushed(2);
+  CHECK(inside.force_N > 1e-4);
+  CHECK(at_begin.force_N == Approx(inside.force_N).epsilon(1e-6));
+}
+
 TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};

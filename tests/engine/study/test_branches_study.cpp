@@ -49,6 +49,28 @@ TEST_CASE("the shell of Fig. 1 loses its two mirrors near the flat", "[standard]
   CHECK(branches[1].back().amplitude == Approx(-branches[2].back().amplitude).epsilon(1e-4));
 }
 
+TEST_CASE("a closed branch is followed once round, and one that goes on says so") {
+  const std::string push =
+      "[footprint]\nrods = 6\nradius_mm = 66\n[actuation]\nratio = 0.9\n[indentation]\n"
+      "joint = [0, 0]\ndepth_mm = 20\n";
+  const auto found = value_of(diagram_of(push));
+  std::vector<BranchPoint> first;
+  for (const BranchPoint& point : found.points)
+    if (point.branch == 1) first.push_back(point);
+  REQUIRE(first.size() > 100);
+  CHECK(first.back().event == BranchEvent::joins);
+  // the first point is the bifurcation, the second one that of the first step
+  for (std::size_t k = 12; k + 1 < first.size(); ++k)
+    CHECK(std::abs(first[k].energy_mJ - first[1].energy_mJ) +
+              100 * std::abs(first[k].height_mm - first[1].height_mm) >
+          1e-4);
+  Watch watch;
+  const auto short_ones =
+      value_of(branches_study(preset::good(push).base, {.most_steps = 10}, watch));
+  CHECK_FALSE(short_ones.all_followed);
+  CHECK(std::ranges::count(short_ones.points, BranchEvent::unfinished, &BranchPoint::event) > 0);
+}
+
 TEST_CASE("a diagram that there is no path for is refused with the reason") {
   CHECK_THAT(
       refusal(diagram_of(

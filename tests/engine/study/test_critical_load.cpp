@@ -255,6 +255,27 @@ TEST_CASE("a beam reaches its strength where M c/I says") {
   CHECK(found.points.front().utilisation < 1e-6);
 }
 
+TEST_CASE("a rod that would break only after stability is lost has no factor at which it does") {
+  preset::Preset p =
+      preset::good(
+          "[rod]\nmaterial = \"gfrp\"\ndiameter_mm = 1.5\n[footprint]\nrods = 6\nspacing_mm = 100\n"
+          "radius_mm = 330\n[actuation]\nratio = 0.9\n[loads]\nwind_N_m2 = 10\n[[loads.case]]\n"
+          "name = \"wind\"\nwind = 1.0\n")
+          .base;
+  const auto strong_to = [&](double strength_MPa) {
+    p.rod.strength_MPa = strength_MPa;
+    return studied(p);
+  };
+  const LoadStudy found = strong_to(274);
+  const record::LoadRow& row = found.cases.at(0);
+  CHECK(row.critical_factor == Approx(4.45).epsilon(0.05));
+  CHECK(std::isnan(row.strength_factor));
+  // on the falling branch it breaks at a lower factor
+  CHECK(std::ranges::max(found.points, {}, &record::LoadPoint::utilisation).utilisation > 1);
+  const record::LoadRow weak = strong_to(200).cases.at(0);
+  CHECK(weak.strength_factor < weak.critical_factor);
+}
+
 TEST_CASE("pressure on faces whose edge is free is refused by the key, with the joint") {
   preset::NetworkData file;
   file.points = {{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}};

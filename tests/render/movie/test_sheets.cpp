@@ -98,9 +98,9 @@ TEST_CASE("an assembly sheet says what is cut, where ends are fixed and how to a
   exports::FabricationPlan work;
   work.title = "A dome";
   work.spacing_mm = 1000;
-  work.rod_diameter_mm = 47.8731;
   exports::CutRod rod;
   rod.name = "u+0";
+  rod.section.diameter_mm = 47.8731;
   rod.length_mm = 4000;
   rod.joint_marks_mm = {1000, 2000, 3000};
   rod.begin = {-2000, 0}, rod.end = {2000, 0};
@@ -124,7 +124,7 @@ TEST_CASE("an assembly sheet says what is cut, where ends are fixed and how to a
   CHECK_THAT(text(), Catch::Contains("rods of 47.8731 mm diameter") &&
                          Catch::Contains("Drill the 2 holes"));
   // laths, at different heights, bolted and braced
-  work.width_mm = 60, work.thickness_mm = 30;
+  work.rods[0].section = {0, 60, 30};
   work.pins[1].at.z() = 700;
   work.hand = {"Tighten the bolts of all 3 joints.", "Brace all 4 cells."};
   const std::string timber = text();
