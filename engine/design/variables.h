@@ -10,8 +10,8 @@
 
 namespace gridshell {
 
-/// A rigid motion that maps the shell to itself: x maps to turn x + shift, and the end k of a rod
-/// (2r the start, 2r + 1 the end of rod r) to the position of end to[k].
+/// A rigid motion that maps the shell to itself: its rotation, and the end to[k] to whose position
+/// it maps the end k of a rod (2r the start, 2r + 1 the end of rod r).
 struct ShellSymmetry {
   std::vector<int> to;
   Eigen::Matrix3d turn;

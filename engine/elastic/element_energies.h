@@ -267,9 +267,9 @@ struct JointAngle {
 // The spin of a rod at a joint that transmits twist: the angle between its director and the joint's
 // normal.
 
-/// Energy of the spin phi of the first edge of a pair: E = k/2 phi^2. Its derivatives follow from
-/// those of alpha = Im log(s.d), with the complex director d = d1 + i d2, which is carried in time
-/// by d(t') = d - (d.t')/(1 + t.t') (t + t'), and z = d/(s.d):
+/// Energy of the spin phi of the first edge of a pair: E = k/2 (phi - natural)^2. Its derivatives
+/// follow from those of alpha = Im log(s.d), with the complex director d = d1 + i d2, which is
+/// carried in time by d(t') = d - (d.t')/(1 + t.t') (t + t'), and z = d/(s.d):
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
 /// where p = de/|e|, q = df/|f|.
@@ -277,8 +277,9 @@ struct JointSpin {
   static constexpr Term term = Term::joint;
   double stiffness = 0;  ///< k, N mm/rad
   int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
+  double natural = 0;    ///< phi without energy, rad
 
-  double excess(const PairGeometry& at) const;
+  double excess(const PairGeometry& at) const;  ///< phi - natural
   double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
   /// First and second derivatives of phi by edge vectors and angles.

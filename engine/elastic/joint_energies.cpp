@@ -186,7 +186,8 @@ PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) const {
 }
 
 double JointSpin::excess(const PairGeometry& at) const {
-  return joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+  return std::remainder(joint_spin(side, at.angle_e, at.e, at.director_e, at.f) - natural,
+                        2 * M_PI);
 }
 
 double JointSpin::value(const PairGeometry& at) const {

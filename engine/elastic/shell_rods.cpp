@@ -136,6 +136,18 @@ void lay_flat(const RodMesh& mesh, Model& model) {
     model.flat.col(column) /= edges[std::size_t(column)];
 }
 
+/// Joints of three or more rods in space have no common normal: the spins of their rods store no
+/// energy as drawn, where no rod is twisted.
+void natural_as_drawn(const RodMesh& mesh, Model& model) {
+  auto& spins = std::get<std::vector<Pair<JointSpin>>>(model.pairs);
+  if (mesh.height.size() == 0 || spins.empty()) return;
+  Eigen::Matrix3Xd nodes(3, mesh.nodes());
+  for (int node = 0; node < mesh.nodes(); ++node) nodes.col(node) = drawn_position(mesh, node);
+  const State drawn = start_state(model, columns_of(mesh, model, nodes));
+  for (Pair<JointSpin>& pair : spins)
+    pair.law.natural = pair.law.excess(pair_geometry(model, drawn, pair));
+}
+
 }  // namespace
 
 ShellRods::ShellRods(const RodMaterial& material) : materials{material} {}
@@ -203,6 +215,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   if (rod_model == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
       !model->links.empty())
     finish(*model);
+  natural_as_drawn(mesh, *model);
   model->loads = dead_loads(mesh, shell);
   if (contact.barrier.acts()) model->contact = contact_pairs(mesh, *model, contact);
   lay_flat(mesh, *model);

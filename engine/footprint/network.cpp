@@ -20,11 +20,6 @@ constexpr double straight = 1e-9;
 // largest distance from a line at which points count as on it, over their extent
 constexpr double on_a_line = 1e-6;
 
-/// Numbers of rods that pass through a point and that end there.
-struct Visits {
-  int passes = 0, ends = 0;
-};
-
 /// The area that two vectors span.
 double area(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
 
@@ -65,24 +60,11 @@ Result<void> check_rod(const RodNetwork& network, std::size_t r,
   return {};
 }
 
-std::vector<Visits> visits_of(const RodNetwork& network) {
-  std::vector<Visits> visits(std::size_t(network.points.cols()));
-  for (const std::vector<int>& rod : network.rods) {
-    for (std::size_t k = 1; k + 1 < rod.size(); ++k) ++visits[rod[k]].passes;
-    if (is_ring(rod)) {
-      ++visits[rod.front()].passes;
-    } else {
-      ++visits[rod.front()].ends;
-      ++visits[rod.back()].ends;
-    }
-  }
-  return visits;
-}
-
 /// The role of each point of a network: joint, support, end.
 class Roles {
  public:
-  explicit Roles(const RodNetwork& network) : network_(network), visits_(visits_of(network)) {
+  explicit Roles(const RodNetwork& network)
+      : network_(network), uses_(uses_of(std::size_t(network.points.cols()), network.rods)) {
     for (const std::vector<int>& rod : network.rods) {
       // a single rod has all its inner points as joints
       if (network.rods.size() > 1 && is_straight(network.points, rod)) continue;
@@ -92,7 +74,7 @@ class Roles {
   }
 
   bool is_joint(int point) const {
-    const auto [passes, ends] = visits_[point];
+    const auto [passes, ends] = uses_[point];
     if (passes == 0)
       return ends > 1 &&
              (network_.free[point] != 0 || is_sprung(point) || network_.joined.contains(point));
@@ -110,11 +92,11 @@ class Roles {
   bool is_fixed(int point) const {
     return is_joint(point) ? is_supported(point) : gridshell::is_fixed(end_at(point));
   }
-  const Visits& at(int point) const { return visits_[point]; }
+  const PointUse& at(int point) const { return uses_[point]; }
 
  private:
   const RodNetwork& network_;
-  std::vector<Visits> visits_;
+  std::vector<PointUse> uses_;
   std::set<int> corners_;  // inner points of rods that are not straight
 };
 

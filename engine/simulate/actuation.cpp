@@ -42,9 +42,9 @@ Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
   for (double shortening : first_shortening) {
     const auto first = path.simulation.begin_buckled(shortening, watch);
     if (watch.cancelled()) return stopped();
-    if (!first && found) break;
-    if (!first) return tl::unexpected<Error>(first.error());
-    if (first->end != Outcome::reached) continue;
+    // a settlement across the rods may shorten them less
+    if (!first && !found) found = tl::unexpected<Error>(first.error());
+    if (!first || first->end != Outcome::reached) continue;
     std::vector<PathSegment> before = std::exchange(path.segments, {});
     Checkpoint start = path.simulation.save();
     const bool connected = follow_back(path, {.requested = false, .through_unstable = true}, watch);
@@ -79,6 +79,7 @@ void turn_to_seed(Simulation& simulation, const Watch& watch) {
   const RodMesh& mesh = shell.finest();
   const Model& model = shell.model();
   if (model.has_spins()) return;
+  const double d = simulation.scene().footprint.spacing, equal_mm = 5e-8 * d;
   const double t = shell.state().t, diagonal = simulation.scene().seed.diagonal;
   const Checkpoint here = simulation.save();
   const Eigen::Matrix3Xd nodes = shell.state().levels.back().x.leftCols(model.nodes);
@@ -89,13 +90,12 @@ void turn_to_seed(Simulation& simulation, const Watch& watch) {
   Eigen::Matrix3Xd best = nodes;
   for (const MeshSymmetry& symmetry :
        symmetries_of_shell(simulation.scene(), mesh, symmetries_of(mesh, shell.motion().at(t)))) {
-    constexpr double equal_mm = 1e-6;
     const Eigen::Matrix3Xd image = symmetry.of(nodes);
     const double lower =
         diagonal * (lower_on_diagonal(mesh, image) - lower_on_diagonal(mesh, best));
     const bool same = std::abs(lower) <= equal_mm;
     if (!symmetry.turns_over() &&
-        (lower > equal_mm || (same && along_side(image) - along_side(best) > 1e-3)))
+        (lower > equal_mm || (same && along_side(image) - along_side(best) > 5e-5 * d)))
       best = image;
   }
   if (best != nodes &&

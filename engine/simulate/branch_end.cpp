@@ -8,7 +8,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double locate_mm = 5e-3;       // prescribed displacement to which a limit is located
+constexpr double located = 2.5e-4;       // prescribed displacement to which a limit is located, d
 constexpr double fraction_of_loads = 4;  // change over the loads that counts as the length scale
 
 }  // namespace
@@ -179,7 +179,7 @@ bool Simulation::Walk::switch_branch(Event& event, std::vector<TimedState>& mome
 /// that change without a prescribed displacement.
 double Simulation::Walk::located_to() const {
   constexpr double of_loads = 1e-3;
-  return std::min(locate_mm / std::max(shell_.reach_mm(), 1e-9), of_loads);
+  return std::min(located * scene_.footprint.spacing / std::max(shell_.reach_mm(), 1e-9), of_loads);
 }
 
 Outcome Simulation::Walk::end_at(Event limit) {

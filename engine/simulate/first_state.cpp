@@ -23,7 +23,8 @@ constexpr int choosing_edges = 4;          // per segment, on the mesh that choo
 /// The dome of the seed in equilibrium with the bend model; of mirror images the requested one.
 Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                            double t, const Scene& scene, const Watch& watch) {
-  constexpr double clearly_mm = 1e-3;  // differences of the diagonals below this do not count
+  // differences of the diagonals below this do not count
+  const double clearly_mm = 5e-5 * scene.footprint.spacing;
   auto first = first_buckled(system, mesh, motion, t, scene.seed, scene.flat, watch);
   const auto lower = [&](const State& state) {
     return scene.seed.diagonal * lower_on_diagonal(mesh, nodes_of(mesh, system.model(), state.x));

@@ -21,9 +21,11 @@ PathOptions options_for(const Scene& scene, Team* team) {
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
   // far below the errors of the meshes, so that it does not change the differences between them
-  options.tolerance_mm = std::clamp(1e-3 * scene.tolerance * scene.length_scale_mm, 1e-7, 1e-4);
+  const double finest = 5e-9 * options.spacing_mm;
+  options.tolerance_mm =
+      std::clamp(1e-3 * scene.tolerance * scene.length_scale_mm, finest, 1e3 * finest);
   // rods in contact are stiff: an error of that size in a distance would change their forces
-  if (scene.rods.contact.barrier.acts()) options.tolerance_mm = 1e-7;
+  if (scene.rods.contact.barrier.acts()) options.tolerance_mm = finest;
   options.team = team;
   return options;
 }

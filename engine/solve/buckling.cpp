@@ -99,8 +99,8 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
   const auto rise = [&](const State& at) { return seed.up * at.x.row(2).head(model.nodes).sum(); };
   const State seeded = state;
   // first with reduced EA: the result is near the equilibrium of the actual rods, without stretch
-  if (minimise(system, state, {.tolerance_mm = 1e-2, .EA_scale = 0.01}, watch).outcome ==
-      Outcome::not_finite)
+  if (minimise(system, state, {.tolerance_mm = 1e-2 * system.scale.length, .EA_scale = 0.01}, watch)
+          .outcome == Outcome::not_finite)
     return fail(Fault::no_equilibrium, "no equilibrium: a position was not finite");
   // thick rods do not buckle with the reduced EA; from the flat, the side would be chosen by chance
   if (!(rise(state) > 0.1 * rise(seeded))) state = seeded;

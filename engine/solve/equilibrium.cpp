@@ -13,7 +13,7 @@ namespace gridshell {
 namespace {
 
 constexpr int most_steps = 1000;
-constexpr double smallest_shift = 1e-9, largest_shift = 1e8;  // N/mm
+constexpr double smallest_shift = 1e-9, largest_shift = 1e8;  // N/mm, times ShellScale::stiffness
 
 /// Factors by which the shift changes: first 2, then each the square of the last, at most `most`,
 /// until reset.
@@ -51,8 +51,9 @@ class GradientFlow {
         if (move <= longest * step_mm_) return go(std::min(1.0, step_mm_ / move), at_once);
       }
       at_once = false;
-      shift_ = std::max(up.next() * shift_, smallest_shift);
-      if (shift_ > largest_shift || watch_.cancelled()) return std::nullopt;
+      shift_ = std::max(up.next() * shift_, smallest_shift * system_.scale.stiffness);
+      if (shift_ > largest_shift * system_.scale.stiffness || watch_.cancelled())
+        return std::nullopt;
     }
   }
 
@@ -152,7 +153,7 @@ class Descent {
   }
 
  private:
-  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // fraction, N/mm
+  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // fraction; N/mm, scaled
 
   /// Every step tries no shift and a quarter of the last weakening first, then more weakening, then
   /// a shift.
@@ -175,7 +176,7 @@ class Descent {
   Inertia from_what_served(double last_move_mm) {
     const double served = weakening_;
     if (shift_ > 0)
-      shift_ = shift_ > least_shift ? shift_ / 8 : 0;
+      shift_ = shift_ > least_shift * system_.scale.stiffness ? shift_ / 8 : 0;
     else if (--wait_ <= 0 || last_move_mm < near_mm_)
       weakening_ = weakening_ > least_weakening ? weakening_ / 4 : 0;
     Inertia inertia = assemble();
@@ -197,9 +198,10 @@ class Descent {
   Inertia shifted(double least) {
     Inertia inertia;
     do {
-      shift_ = std::max(4 * shift_, least);
+      shift_ = std::max(4 * shift_, least * system_.scale.stiffness);
       inertia = system_.shifted(shift_);
-    } while (!inertia.positive_definite() && shift_ < 1e8 && !watch_.cancelled());
+    } while (!inertia.positive_definite() && shift_ < largest_shift * system_.scale.stiffness &&
+             !watch_.cancelled());
     return inertia;
   }
 
@@ -292,14 +294,15 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
 Result<State> minimise_from(Linearisation& system, State state, const Watch& watch,
                             const BranchSwitch& departure) {
   constexpr int longest = 16;
-  const NewtonReport down = minimise_for(longest, system, state, {}, watch);
+  const NewtonReport down =
+      minimise_for(longest, system, state, {.tolerance_mm = 1e-5 * system.scale.length}, watch);
   if (down.outcome == Outcome::reached) return state;
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
   if (down.outcome == Outcome::lost)
     return fail(Fault::no_equilibrium,
                 "no equilibrium can be reached without rods passing through each other");
   // the corrections have converged, but not to a minimum: the state is a saddle
-  if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
+  if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3 * system.scale.length) {
     system.at(state, false);
     return leave_saddle(system, state, softest_mode(system, departure.start, watch), departure,
                         watch);
@@ -314,7 +317,7 @@ Result<State> find_equilibrium(Linearisation& system, const State& state, double
   State found = state;
   NewtonOptions options;
   options.farthest_mm = farthest_mm;
-  options.tolerance_mm = 1e-7;
+  options.tolerance_mm = 1e-7 * system.scale.length;
   const NewtonReport report = newton(system, found, options, watch);
   if (report.outcome == Outcome::reached) {
     if (system.at(found, false).positive_definite()) return found;

@@ -1,11 +1,24 @@
 #include "engine/solve/mesh_levels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
 
 namespace gridshell {
+namespace {
+
+Linearisation::ShellScale scale_of(const Footprint& footprint, const ShellRods& rods) {
+  constexpr double spacing_mm = 20;
+  const double paper_EA = circular_section(0.254, 83).EA;
+  double EA = 0;
+  for (const RodMaterial& material : rods.materials) EA = std::max(EA, material.EA);
+  if (!(footprint.spacing > 0 && EA > 0)) return {};
+  return {footprint.spacing / spacing_mm, EA / footprint.spacing / (paper_EA / spacing_mm)};
+}
+
+}  // namespace
 
 MeshLevel::MeshLevel() : own_model(std::make_unique<Model>()), model(*own_model) {}
 MeshLevel::~MeshLevel() = default;
@@ -18,6 +31,7 @@ Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods,
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);
   system = std::make_unique<Linearisation>(model);
+  system->scale = scale_of(footprint, rods);
   const auto free_to_turn = turning_rods(meshed, rods, boundary, rod_model);
   if (!free_to_turn.empty()) system->bear_neutral_directions();
   turning = turning_nodes(free_to_turn, meshed, mesh);

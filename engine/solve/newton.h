@@ -96,6 +96,15 @@ class Linearisation {
   /// solved.
   void free_memory();
 
+  /// Size and stiffness of the shell, over those of the paper's (wire of 0.254 mm, 20 mm apart):
+  /// factors of the tolerances and shifts of descents, so that equal shells of any size take equal
+  /// steps.
+  struct ShellScale {
+    double length = 1;     ///< of the spacing
+    double stiffness = 1;  ///< of EA over the spacing
+  };
+  ShellScale scale;
+
   /// External loads; changes count from the next assembly on.
   ExternalLoads outside;
 

@@ -203,6 +203,28 @@ TEST_CASE("a small grid of thick wire is followed from the flat to the dome") {
   CHECK_THAT(outcome.trajectory.frames.back().height_mm, Catch::WithinAbs(33.09, 0.05));
 }
 
+TEST_CASE("a shell of twice the size has twice the shape") {
+  const auto sized = [](int times) {
+    preset::Preset p =
+        preset::good(
+            "[footprint]\nkind = \"curve\"\nboundary = \"spline\"\npoints_mm = [[74.4129, "
+            "16.1592], "
+            "[65.6298, 23.4608], [-60.6963, 15.7945], [-22.914, -58.6149], [57.2122, -1.46313]]\n"
+            "[actuation]\nscale = 0.82072\n")
+            .base;
+    for (auto& point : p.footprint.boundary.points)
+      for (double& one : point) one *= times;
+    p.footprint.spacing_mm *= times;
+    p.rod.diameter_mm *= times;
+    return run_to_end(p);
+  };
+  const auto one = sized(1), two = sized(2);
+  CHECK(one.summary.limit == two.summary.limit);
+  CHECK((joints_of(two.trajectory) - 2 * joints_of(one.trajectory)).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK(two.summary.energies[Term::bend] ==
+        Approx(8 * one.summary.energies[Term::bend]).epsilon(1e-8));
+}
+
 TEST_CASE(
     "a still of the flat alone is the flat, and of rods with natural curvature there is none") {
   preset::Preset p = circle(4, 42, 36);

@@ -95,3 +95,33 @@ TEST_CASE("straight strips laid flat by their geodesic lengths reach the sphere"
         Approx(54.617).margin(1.1 * outcome.summary.error_estimate_mm));
   CHECK(outcome.summary.error_estimate_mm < 0.2);
 }
+
+TEST_CASE("a rigid corner of three rods that have no common plane bears loads as beams do") {
+  constexpr double high = 80, arm = 50, force = 1e-3, EI = 8e4 * M_PI / 64;  // mm, N, N mm^2
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {0, 0, high}, {arm, 0, high}, {0, arm, high}};
+  file.rods = {{0, 1}, {1, 2}, {1, 3}};
+  file.supports = {{0}};
+  file.free = {2, 3};
+  file.end_constraints = {{0, 0, double(preset::EndKind::clamped)}};
+  file.joint_laws = {{1, -1, -1}};
+  preset::Preset p = network(file);
+  p.rod.diameter_mm = 1, p.rod.young_GPa = 80, p.rod.shear_GPa = 30;
+  p.accuracy.tolerance = 1e-4;
+  const auto of_point = [=](const simulate::ExperimentResult& outcome, double x, double y) {
+    const Eigen::Matrix3Xd& nodes = outcome.trajectory.frames.back().nodes;
+    Eigen::Index nearest = 0;
+    (nodes.colwise() - Eigen::Vector3d(x, y, high)).colwise().squaredNorm().minCoeff(&nearest);
+    return Eigen::Vector3d(nodes.col(nearest));
+  };
+  const auto unloaded = run(p);
+  CHECK(unloaded.summary.stable);
+  CHECK(unloaded.summary.energies.total() < 1e-9);
+  CHECK((of_point(unloaded, arm, 0) - Eigen::Vector3d(arm, 0, high)).norm() < 1e-6);
+  // the arm bends as a cantilever, and turns with the column's top
+  p.loads.points = {{2, 0, 0, 0, -force}};
+  const auto loaded = run(p);
+  const double sunk = force * arm * arm / EI * (arm / 3 + high);
+  CHECK(high - of_point(loaded, arm, 0).z() == Approx(sunk).epsilon(5e-3));
+  CHECK(of_point(loaded, 0, arm).x() == Approx(force * arm * high * high / (2 * EI)).epsilon(5e-3));
+}
