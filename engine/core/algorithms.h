@@ -46,6 +46,28 @@ class SetForScope {
   T before_;
 };
 
+// Points of rods.
+
+/// Number of rods that pass through a point, and of rods that end at it.
+struct PointUse {
+  int passes = 0, ends = 0;
+};
+
+/// The use of each of `points` points. A rod is a list of points; a ring, which ends with its first
+/// one, passes through it.
+inline std::vector<PointUse> uses_of(std::size_t points,
+                                     const std::vector<std::vector<int>>& rods) {
+  std::vector<PointUse> uses(points);
+  for (const std::vector<int>& rod : rods) {
+    for (std::size_t k = 1; k + 1 < rod.size(); ++k) ++uses[std::size_t(rod[k])].passes;
+    if (rod.front() == rod.back())
+      ++uses[std::size_t(rod.front())].passes;
+    else
+      for (const int end : {rod.front(), rod.back()}) ++uses[std::size_t(end)].ends;
+  }
+  return uses;
+}
+
 // Disjoint sets.
 
 /// The numbers 0 to size - 1 in disjoint sets, at first one each [Galler, Fischer 1964].

@@ -19,6 +19,19 @@ struct NearestPoints {
 NearestPoints nearest_points(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                              const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
+/// The point of the segment from a to b that is nearest to p, as a fraction of its length.
+inline double nearest_fraction(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                               const Eigen::Vector3d& b) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
+}
+
+/// The distance of p from the segment from a to b.
+inline double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b) {
+  return (a + nearest_fraction(p, a, b) * (b - a) - p).norm();
+}
+
 /// Whether two boxes are within mm of each other.
 inline bool are_near(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double mm) {
   return ((a.min() - b.max()).array() <= mm).all() && ((b.min() - a.max()).array() <= mm).all();

@@ -257,31 +257,35 @@ class Gathering {
   std::size_t insertions_ = 0;
 };
 
-/// Names and lengths in mm of the units of $INSUNITS, by their numbers; empty: no unit.
-constexpr std::array<std::pair<const char*, double>, 15> drawing_units{{{"", 0},
-                                                                        {"in", 25.4},
-                                                                        {"ft", 304.8},
-                                                                        {"mi", 1609344},
-                                                                        {"mm", 1},
-                                                                        {"cm", 10},
-                                                                        {"m", 1000},
-                                                                        {"km", 1e6},
-                                                                        {"uin", 25.4e-6},
-                                                                        {"mil", 25.4e-3},
-                                                                        {"yd", 914.4},
-                                                                        {"A", 1e-7},
-                                                                        {"nm", 1e-6},
-                                                                        {"um", 1e-3},
-                                                                        {"dm", 100}}};
+constexpr double survey_foot = 1200e3 / 3937;  // of the United States
 
-/// Those of the United States' surveys, from number 21 on.
-constexpr double survey_foot = 1200e3 / 3937;
-constexpr std::array<std::pair<const char*, double>, 4> survey_units{
-    {{"US survey ft", survey_foot},
+/// Names and lengths in mm of the units of $INSUNITS, by their numbers; empty: no unit.
+constexpr std::array<std::pair<const char*, double>, 25> drawing_units{
+    {{"", 0},
+     {"in", 25.4},
+     {"ft", 304.8},
+     {"mi", 1609344},
+     {"mm", 1},
+     {"cm", 10},
+     {"m", 1000},
+     {"km", 1e6},
+     {"uin", 25.4e-6},
+     {"mil", 25.4e-3},
+     {"yd", 914.4},
+     {"A", 1e-7},
+     {"nm", 1e-6},
+     {"um", 1e-3},
+     {"dm", 100},
+     {"dam", 10 * 1000},
+     {"hm", 100 * 1000},
+     {"Gm", 1e12},
+     {"AU", 1.495978707e14},
+     {"light years", 9.4607304725808e18},
+     {"parsecs", 3.0856775814913673e19},
+     {"US survey ft", survey_foot},
      {"US survey in", survey_foot / 12},
      {"US survey yd", survey_foot * 3},
      {"US survey mi", survey_foot * 5280}}};
-constexpr int first_survey_unit = 21;
 
 }  // namespace
 
@@ -293,9 +297,6 @@ Result<DxfDrawing> read_dxf(std::string_view bytes, const std::string& name) {
   drawing.entities = std::move(*entities);
   if (raw->unit > 0 && raw->unit < int(drawing_units.size()))
     std::tie(drawing.unit, drawing.unit_mm) = drawing_units[std::size_t(raw->unit)];
-  const int survey = raw->unit - first_survey_unit;
-  if (survey >= 0 && survey < int(survey_units.size()))
-    std::tie(drawing.unit, drawing.unit_mm) = survey_units[std::size_t(survey)];
   return drawing;
 }
 

@@ -5,11 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
-#include <chrono>
+#include <cerrno>
 #include <csignal>
 #include <fstream>
-#include <thread>
 
+#include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
 #include "engine/formats/hdf5_file.h"
 
@@ -223,7 +223,7 @@ Lists Reader::lists(const std::string& name) {
 namespace gridshell::record {
 namespace {
 
-constexpr int seconds = 20;
+constexpr int seconds = 20;  // of processor time
 
 /// Address space of this process in bytes; 0: not known.
 std::uint64_t bytes_in_use() {
@@ -248,9 +248,10 @@ void restrict_memory() {
 void restrict_subprocess() {
   restrict_memory();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP})
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP, SIGXCPU})
     std::signal(signal, SIG_DFL);
-  const rlimit none{0, 0}, time{rlim_t(seconds), rlim_t(seconds)};
+  const rlimit none{0, 0}, time{rlim_t(seconds), rlim_t(seconds + 1)};
   ::setrlimit(RLIMIT_CORE, &none);
   ::setrlimit(RLIMIT_CPU, &time);
   const int nowhere = ::open("/dev/null", O_WRONLY);
@@ -273,6 +274,10 @@ pid_t forked_with_library() {
 }  // namespace
 
 Result<void> read_in_subprocess(const std::function<void()>& reading) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return {};
+  const Descriptor from(ends[0]);
+  Descriptor to(ends[1]);
   const pid_t child = forked_with_library();
   // if there can be no subprocess, the trial is left out
   if (child < 0) return {};
@@ -283,19 +288,18 @@ Result<void> read_in_subprocess(const std::function<void()>& reading) {
     } catch (...) {
       _exit(1);
     }
-    _exit(0);
+    _exit(::write(to, "", 1) == 1 ? 0 : 1);
   }
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+  to.close();
+  // one byte reports success: the exit status is unknown where SIGCHLD is ignored
+  char byte = 0;
+  ssize_t bytes = 0;
+  while ((bytes = ::read(from, &byte, 1)) < 0 && errno == EINTR) continue;
   int status = 0;
-  for (pid_t ended = 0; ended != child; ended = ::waitpid(child, &status, WNOHANG)) {
-    if (std::chrono::steady_clock::now() > end) {
-      ::kill(child, SIGKILL);
-      ::waitpid(child, &status, 0);
-      return invalid("it is damaged: the HDF5 library takes more than {} s to read it", seconds);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (bytes == 1) return {};
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    return invalid("it is damaged: the HDF5 library takes more than {} s to read it", seconds);
   return invalid("it is damaged: the HDF5 library does not survive reading it");
 }
 

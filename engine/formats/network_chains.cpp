@@ -10,6 +10,7 @@
 #include <set>
 #include <tuple>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 
@@ -120,9 +121,10 @@ void NetworkBuilder::chain(const std::vector<int>& partner) {
 
 void NetworkBuilder::thin_out() {
   if (samples_.empty() && seams_.empty()) return;
-  const std::vector<int> rods_at = rods_at_points();
+  const std::vector<PointUse> uses = uses_of(points(), network_.rods);
   const auto alone = [&](const std::set<int>& of, int point) {
-    return of.contains(point) && rods_at[std::size_t(point)] == 1;
+    const auto [passes, ends] = uses[std::size_t(point)];
+    return of.contains(point) && passes + ends == 1;
   };
   for (std::vector<int>& rod : network_.rods) {
     std::vector<int> left{rod.front()};

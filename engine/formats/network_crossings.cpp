@@ -9,6 +9,8 @@
 #include <set>
 #include <tuple>
 
+#include "engine/core/algorithms.h"
+#include "engine/core/proximity.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 
@@ -99,45 +101,31 @@ double overlap(const Stretch& a, const Stretch& b) {
   return std::min(a.length(), std::max(from, to)) - std::max(0.0, std::min(from, to));
 }
 
-/// The point of a segment nearest to a position, as a fraction of its length.
-double nearest_fraction(const Stretch& stretch, const Eigen::Vector3d& position) {
-  const Eigen::Vector3d vector = stretch.vector();
-  return std::clamp((position - stretch.begin).dot(vector) / vector.squaredNorm(), 0.0, 1.0);
-}
-
 }  // namespace
-
-std::vector<int> NetworkBuilder::rods_at_points() const {
-  std::vector<int> rods(points(), 0);
-  for (const std::vector<int>& rod : network_.rods) {
-    const bool ring = rod.front() == rod.back();
-    for (std::size_t k = ring ? 1 : 0; k < rod.size(); ++k) ++rods[std::size_t(rod[k])];
-  }
-  return rods;
-}
 
 Result<void> NetworkBuilder::join_ends(const std::string& name) {
   constexpr std::size_t most_looked_at = 1000000000;
   if (!joins_near()) return {};
-  const std::vector<int> rods = rods_at_points();
+  const std::vector<PointUse> uses = uses_of(points(), network_.rods);
   const std::vector<Stretch> all = stretches_of(network_);
   if (2 * network_.rods.size() * all.size() > most_looked_at)
     return invalid("{}: got too many rods for their ends to be joined, expected join_mm = 0", name);
   std::vector<Cut> cuts;
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
-      if (rods[std::size_t(end)] != 1) continue;
+      const auto [passes, ends] = uses[std::size_t(end)];
+      if (passes + ends != 1) continue;
       std::vector<double>& coordinates = network_.points[std::size_t(end)];
       const Eigen::Vector3d at = position_of(network_, end);
       const Stretch* nearest = nullptr;
       double least = near_mm_;
       for (const Stretch& one : all) {
         if (one.low() - near_mm_ > at.x()) break;
-        const double away = (one.at(nearest_fraction(one, at)) - at).norm();
+        const double away = distance_to_segment(at, one.begin, one.end);
         if (one.rod != r && away < least) least = away, nearest = &one;
       }
       if (!nearest) continue;
-      const double fraction = nearest_fraction(*nearest, at);
+      const double fraction = nearest_fraction(at, nearest->begin, nearest->end);
       const Eigen::Vector3d foot = nearest->at(fraction);
       coordinates = {foot.x(), foot.y(), foot.z()};
       cuts.push_back({nearest->rod, nearest->first, fraction, end});

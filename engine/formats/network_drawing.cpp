@@ -5,11 +5,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "engine/core/proximity.h"
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/dxf_file.h"
@@ -55,21 +57,13 @@ class Marks {
     return std::ranges::any_of(drawn_, [&](const DrawnEntity* one) {
       if (one->kind == "CIRCLE") return false;
       for (std::size_t k = 1; k < one->points.size(); ++k)
-        if (distance(circle.centre, one->points[k - 1], one->points[k]) < 1e-3 * radius)
+        if (distance_to_segment(circle.centre, one->points[k - 1], one->points[k]) < 1e-3 * radius)
           return true;
       return false;
     });
   }
 
  private:
-  static double distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                         const Eigen::Vector3d& b) {
-    const Eigen::Vector3d segment = b - a;
-    const double length = segment.squaredNorm();
-    const double fraction = length > 0 ? std::clamp((p - a).dot(segment) / length, 0.0, 1.0) : 0;
-    return (a + fraction * segment - p).norm();
-  }
-
   const std::vector<const DrawnEntity*>& drawn_;
   Eigen::AlignedBox3d box_;
 };
@@ -148,21 +142,21 @@ double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>&
   if (rod > 0 && length * drawing.unit_mm > longest * rod && length > shortest * rod &&
       length < longest * rod) {
     report.text += fmt::format("in mm, although it says {} ($INSUNITS)", drawing.unit);
+    // the units of the key file_unit
+    static constexpr std::array<std::string_view, 5> known{"mm", "cm", "m", "in", "ft"};
     report.notes.push_back(fmt::format(
         "the drawing says that it is in {} ($INSUNITS): {:.4g} mm long, its rods of {:g} mm would "
-        "be "
-        "{:.2g} times as long as thick; it is read in mm; file_unit = \"{}\" reads it in its own "
-        "unit",
-        drawing.unit, length * drawing.unit_mm, rod, length * drawing.unit_mm / rod, drawing.unit));
+        "be {:.2g} times as long as thick; it is read in mm; {} reads it in its own unit",
+        drawing.unit, length * drawing.unit_mm, rod, length * drawing.unit_mm / rod,
+        std::ranges::find(known, drawing.unit) != known.end()
+            ? fmt::format("file_unit = \"{}\"", drawing.unit)
+            : fmt::format("file_unit = \"m\" with the drawing scaled by {:.6g}",
+                          drawing.unit_mm / 1000)));
     return 1;
   }
   report.text += fmt::format("in {} ($INSUNITS)", drawing.unit);
   return drawing.unit_mm;
 }
-
-}  // namespace
-
-namespace {
 
 /// The edges of a mesh as lines, each once.
 class MeshEdges {
@@ -206,6 +200,15 @@ class MeshEdges {
   std::size_t faces_ = 0, quads_ = 0;
 };
 
+/// The function that adds the points of a file to a builder, in mm.
+auto adder_of_points(NetworkBuilder& builder, const NetworkOptions& options) {
+  const double unit = options.unit_mm > 0 ? options.unit_mm : 1;
+  return [&builder, unit](std::vector<double> xyz, const std::string& at) {
+    for (double& value : xyz) value *= unit;
+    return builder.add_point(xyz, at);
+  };
+}
+
 std::string unit_text(const NetworkOptions& options, const char* format) {
   return options.unit_mm > 0 ? "unit by file_unit"
                              : fmt::format("in mm, as {} names no unit", format);
@@ -216,12 +219,7 @@ std::string unit_text(const NetworkOptions& options, const char* format) {
 Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name,
                                      const NetworkOptions& options, FileReport& report) {
   NetworkBuilder builder(options.join_mm);
-  const double unit = options.unit_mm > 0 ? options.unit_mm : 1;
   std::size_t lines = 0;
-  const auto add_point = [&](std::vector<double> xyz, const std::string& at) {
-    for (double& value : xyz) value *= unit;
-    return builder.add_point(xyz, at);
-  };
   const auto add_rod = [&](const std::vector<long>& vertices, const std::string& at) {
     std::vector<int> points;
     for (const long vertex : vertices) {
@@ -232,17 +230,14 @@ Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& 
     ++lines;
     return builder.add_rod(std::move(points), 0, at);
   };
-  TRY(others, read_obj_lines(bytes, name, "l", {add_point, add_rod}));
+  TRY(others, read_obj_lines(bytes, name, "l", {adder_of_points(builder, options), add_rod}));
   if (lines == 0 && (*others)["f"] > 0) {
     // no line: the edges of the faces are the members
     NetworkBuilder of_faces(options.join_mm);
     MeshEdges edges(of_faces);
     const auto read = read_obj_lines(
         bytes, name, "f",
-        {[&](std::vector<double> xyz, const std::string& at) {
-           for (double& value : xyz) value *= unit;
-           return of_faces.add_point(xyz, at);
-         },
+        {adder_of_points(of_faces, options),
          [&](const auto& face, const auto& at) { return edges.add_face(face, at); }});
     if (!read) return tl::unexpected(read.error());
     report.text += unit_text(options, "OBJ") + "; ";
@@ -259,10 +254,7 @@ Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string&
                                       const NetworkOptions& options, FileReport& report) {
   NetworkBuilder builder(options.join_mm);
   MeshEdges edges(builder);
-  const double unit = options.unit_mm > 0 ? options.unit_mm : 1;
-  const auto add_point = [&](const std::vector<double>& xyz, const std::string& at) {
-    return builder.add_point({unit * xyz[0], unit * xyz[1], unit * xyz[2]}, at);
-  };
+  const auto add_point = adder_of_points(builder, options);
   const bool ply = ending_of(name) == ".ply";
   const auto read =
       ply ? each_ply_item(bytes, name,

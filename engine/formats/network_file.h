@@ -84,13 +84,6 @@ OpeningSense opening_sense(const NetworkData& network);
 /// joint.
 double mean_angle(const NetworkData& network);
 
-/// Number of rods that pass through a point, and of rods that end at it.
-struct PointUse {
-  int passes = 0, ends = 0;
-};
-/// The use of each point.
-std::vector<PointUse> uses_of(const NetworkData& network);
-
 /// Median distance of neighbouring joints and ends along the rods, mm.
 double spacing_of(const NetworkData& network);
 
@@ -185,7 +178,6 @@ class NetworkBuilder {
   Result<void> check_reach(const std::vector<int>& joint_of) const;
   void rename(const std::vector<int>& joint_of);
 
-  std::vector<int> rods_at_points() const;
   Result<std::vector<int>> continued_by_direction() const;
   void chain(const std::vector<int>& partner);
   void support_on_springs();

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 
@@ -267,7 +268,7 @@ Result<void> NetworkBuilder::join_segments(FileReport& report) {
   support_on_springs();
   std::set<int> supported;
   for (const auto& row : network_.supports) supported.insert(int(row[0]));
-  const std::vector<PointUse> uses = uses_of(network_);
+  const std::vector<PointUse> uses = uses_of(points(), network_.rods);
   std::size_t crossed = 0, met = 0, alone = 0;
   for (std::size_t k = 0; k < points(); ++k) {
     const auto [passes, ends] = uses[k];

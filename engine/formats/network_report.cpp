@@ -9,22 +9,12 @@
 #include <map>
 #include <set>
 
+#include "engine/core/algorithms.h"
+#include "engine/core/proximity.h"
 #include "engine/core/text.h"
 #include "engine/formats/network_file.h"
 
 namespace gridshell::preset {
-std::vector<PointUse> uses_of(const NetworkData& network) {
-  std::vector<PointUse> uses(network.points.size());
-  for (const std::vector<int>& rod : network.rods) {
-    const bool ring = rod.front() == rod.back();
-    for (std::size_t k = 1; k + 1 < rod.size(); ++k) ++uses[std::size_t(rod[k])].passes;
-    if (ring) ++uses[std::size_t(rod.front())].passes;
-    for (const int end : {rod.front(), rod.back()})
-      if (!ring) ++uses[std::size_t(end)].ends;
-  }
-  return uses;
-}
-
 namespace {
 
 /// Distances of neighbouring joints and ends along the rods, mm.
@@ -148,15 +138,11 @@ class NearPoints {
         for (std::size_t k = 1; k < network_.rods[r].size() && int(r) != own; ++k)
           if (std::ranges::count(rods_[std::size_t(next)], int(r)) == 0 &&
               !pass(end, network_.rods[r][k]))
-            least = std::min(least, distance(at, network_.rods[r][k - 1], network_.rods[r][k]));
+            least = std::min(least,
+                             distance_to_segment(at, position_of(network_, network_.rods[r][k - 1]),
+                                                 position_of(network_, network_.rods[r][k])));
       if (least < near_) pairs.push_back({at, least});
     }
-  }
-
-  double distance(const Eigen::Vector3d& at, int from, int to) const {
-    const Eigen::Vector3d a = position_of(network_, from), segment = position_of(network_, to) - a;
-    const double fraction = std::clamp((at - a).dot(segment) / segment.squaredNorm(), 0.0, 1.0);
-    return (a + fraction * segment - at).norm();
   }
 
   const NetworkData& network_;
@@ -169,7 +155,7 @@ class NearPoints {
 }  // namespace
 
 double spacing_of(const NetworkData& network) {
-  std::vector<double> segments = segments_of(network, uses_of(network));
+  std::vector<double> segments = segments_of(network, uses_of(network.points.size(), network.rods));
   if (segments.empty()) return 0;
   const auto middle = segments.begin() + std::ptrdiff_t(segments.size() / 2);
   std::nth_element(segments.begin(), middle, segments.end());
@@ -177,7 +163,7 @@ double spacing_of(const NetworkData& network) {
 }
 
 void report_network(const NetworkData& network, const NetworkOptions& options, FileReport& report) {
-  const std::vector<PointUse> uses = uses_of(network);
+  const std::vector<PointUse> uses = uses_of(network.points.size(), network.rods);
   std::set<int> free(network.free.begin(), network.free.end()), named, laws, sprung;
   for (const auto& row : network.springs) sprung.insert(int(row[0]));
   for (const auto& row : network.supports) named.insert(int(row[0]));

@@ -1,6 +1,7 @@
 #include "engine/formats/outline_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -196,17 +197,18 @@ Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& 
                near = std::max(touching * size, join_mm / drawing.unit_mm);
   const Loops loops = loops_of(drawing, box.min(), near);
   const auto largest = std::ranges::max_element(loops.closed, {}, area_of);
-  if (largest == loops.closed.end() || !(area_of(*largest) > touching * size * size))
-    return invalid("{}: got no closed outline{}{}", name,
-                   loops.open == 0
-                       ? ", and no line"
-                       : fmt::format(": {}{}", counted(loops.open, "open line"),
-                                     std::isfinite(loops.gap)
-                                         ? fmt::format(", the smallest gap {:.3g} mm: join_mm "
-                                                       "closes gaps of up to its size",
-                                                       loops.gap * drawing.unit_mm)
-                                         : ""),
-                   drawing.left_out);
+  if (largest == loops.closed.end() || !(area_of(*largest) > touching * size * size)) {
+    std::vector<std::string> found;
+    if (!loops.closed.empty())
+      found.push_back(counted(loops.closed.size(), "closed line") + " without area");
+    if (loops.open > 0) found.push_back(counted(loops.open, "open line"));
+    if (std::isfinite(loops.gap))
+      found.push_back(
+          fmt::format("the smallest gap {:.3g} mm: join_mm closes gaps of up to its size",
+                      loops.gap * drawing.unit_mm));
+    return invalid("{}: got no closed outline{}{}{}", name, found.empty() ? ", and no line" : ": ",
+                   fmt::join(found, ", "), drawing.left_out);
+  }
   NetworkData outline;
   outline.rods.emplace_back();
   for (const Eigen::Vector2d& point : *largest) {

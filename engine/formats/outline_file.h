@@ -12,8 +12,8 @@
 
 namespace gridshell::preset {
 
-/// A line of a drawing, projected along z, in the drawing's unit; curved pieces have a point per
-/// degree of direction.
+/// A line of a drawing, projected along z, in the drawing's unit. Curved pieces have a point per
+/// degree of direction, or 64 points on each Bezier curve of an SVG.
 struct PlanLine {
   std::vector<Eigen::Vector2d> points;
   bool closed = false;

@@ -25,8 +25,11 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // in a file of separate triangles each has three vertices
-  if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
-    return invalid("{}: got more than {} vertices, expected fewer", where, most_vertices);
+  const bool many = mesh_.vertices.size() == most_vertices;
+  if (many || number_.size() == 3 * most_triangles)
+    return invalid("{}: got more than {} vertices{}, expected fewer", where,
+                   many ? most_vertices : 3 * most_triangles,
+                   many ? " at different positions" : "");
   number_.push_back(found->second);
   if (fresh) mesh_.vertices.push_back(xyz);
   return {};

@@ -178,8 +178,10 @@ void ShapeContacts::look(Search& search, int begin_a, int end_a, int begin_b, in
   const auto along = [&](int point) { return along_[point]; };
   for (int k = 0; k < search.joints; ++k) {
     const Joint& joint = search.joint[k];
+    // an edge of a short leg may end exactly there
+    const double most = joint.within * (1 + 1e-9);
     const auto within = [&](int begin, int end, double at) {
-      return std::max(std::abs(along(begin) - at), std::abs(along(end) - at)) <= joint.within;
+      return std::max(std::abs(along(begin) - at), std::abs(along(end) - at)) <= most;
     };
     if (within(begin_a, end_a, joint.at_a) && within(begin_b, end_b, joint.at_b)) return;
   }

@@ -205,9 +205,8 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
 
   std::string data = line_of(json, true);
-  // a script ends at the first "</script", even within a text
-  for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
-    data.replace(at, 2, "<\\/");
+  // "</script" ends a script and "<!--<script" changes its end, even within a text
+  for (std::size_t at = 0; (at = data.find('<', at)) != data.npos;) data.replace(at, 1, "\\u003c");
   std::string page = page_template;
   const std::string marker = "/*RUN*/";
   page.replace(page.find(marker), marker.size(), data);

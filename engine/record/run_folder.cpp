@@ -50,6 +50,8 @@ std::string seams_csv(const Layout& layout) {
   return std::move(csv).text();
 }
 
+namespace {
+
 /// Writes a cell. A count below zero is not known and gives an empty cell. Commas of a text become
 /// semicolons, so that readers that do not know quotes find the right columns.
 void put(CsvWriter& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
@@ -58,6 +60,8 @@ void put(CsvWriter& csv, std::string text) {
   std::ranges::replace(text, ',', ';');
   csv.cell(text);
 }
+
+}  // namespace
 
 std::string bins_csv(const Trajectory& trajectory) {
   CsvWriter csv;

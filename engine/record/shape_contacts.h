@@ -48,7 +48,6 @@ class ShapeContacts {
     bool any = false;  ///< whether a gap was found
 
     /// Whether points at these positions along their rods are compared.
-
     bool reported(double at_a, double at_b) const {
       const double distance = std::abs(at_b - at_a);
       if (std::min(distance, round - distance) < apart) return false;

@@ -1,5 +1,6 @@
 #include "engine/record/study_tables.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -33,6 +34,26 @@ std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows) {
   for (std::size_t k : order)
     if (front.empty() || rows[k].error < 0.95 * rows[front.back()].error) front.push_back(k);
   return front;
+}
+
+std::string loss_text(const LoadRow& row) {
+  if (std::isfinite(row.critical_factor))
+    return row.event == BranchEvent::turn ? "limit point" : "bifurcation";
+  return row.event == BranchEvent::locking
+             ? "the rods reach the strain limit before stability is lost"
+             : "stability is not lost on the path followed";
+}
+
+std::string knock_down_text(const LoadRow& row) {
+  if (row.imperfections == 0) return "";
+  std::string text = fmt::format(
+      "median of {} imperfect shells: {:.3g} of that factor (5 to 95 %: {:.3g} to {:.3g})",
+      row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
+  if (row.knock_down_95 > 1)
+    text += "; a shell that stays stable counts with the factor at the end of its path";
+  if (row.imperfections_failed > 0)
+    text += fmt::format(", of which {} have no equilibrium", row.imperfections_failed);
+  return text;
 }
 
 }  // namespace gridshell::record

@@ -107,7 +107,7 @@ enum class BranchEvent {
   joins,        ///< the branch meets one that was followed before, or its own beginning
   locking,      ///< the rods reach the strain limit: the branch ends
   lost,         ///< the branch could not be followed further
-  unfinished,   ///< the branch goes on, but was followed for the largest number of steps
+  unfinished,   ///< the branch continues, but was followed for the largest number of steps
 };
 constexpr auto words(BranchEvent) { return names_except<BranchEvent>({{BranchEvent::none, ""}}); }
 
@@ -172,6 +172,11 @@ struct LoadRow {
   /// quantiles (5, 50, 95 %) of their critical factors (0 if failed) over that of the perfect shell
   double knock_down_5 = unknown, knock_down_50 = unknown, knock_down_95 = unknown;
 };
+/// How the shell loses its stability: "limit point", "bifurcation", or that it does not.
+std::string loss_text(const LoadRow& row);
+/// "median of 20 imperfect shells: 0.84 of that factor (5 to 95 %: 0.71 to 0.93)"; empty: none.
+std::string knock_down_text(const LoadRow& row);
+
 template <RecordOf<LoadRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "case", row.load_case, "critical_factor", row.critical_factor, "error",

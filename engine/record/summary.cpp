@@ -14,7 +14,7 @@
 namespace gridshell::record {
 
 void Summary::take_state(const Frame& last) {
-  negative_pivots = std::max(last.negative_pivots, 0);
+  negative_pivots = last.negative_pivots;
   stable = last.negative_pivots == 0;
   residual_N = last.residual_N;
   error_estimate_mm = last.error_estimate_mm;
@@ -46,8 +46,6 @@ std::string Summary::breaking() const {
 
 namespace {
 
-constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
-
 /// Whether a file may lack the key, since an older version did not write it.
 bool may_lack(const std::string& key) {
   static const auto later = words_in(
@@ -62,8 +60,8 @@ bool may_lack(const std::string& key) {
 
 Json json_of_run(const Summary& summary) {
   Json json = json_of(summary);
-  if (!summary.solved)
-    for (const char* key : of_a_solution) json[key] = nullptr;
+  if (!summary.solved) json["stable"] = nullptr;
+  if (!summary.solved || summary.negative_pivots < 0) json["negative_pivots"] = nullptr;
   return json;
 }
 
@@ -101,10 +99,9 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
   summary.program.clear();
   for (const TermName& term : energy_terms) summary.energies[term.term] = unknown;
   summary.solved = !json.contains("stable") || !json["stable"].is_null();
-  if (!summary.solved) {
-    json["stable"] = false;
-    json["negative_pivots"] = 0;
-  }
+  if (!summary.solved) json["stable"] = false;
+  if (json.contains("negative_pivots") && json["negative_pivots"].is_null())
+    json["negative_pivots"] = -1;
   const std::string fault = take_fields(json, summary, may_lack);
   if (!fault.empty()) return refuse(fault);
   return summary;

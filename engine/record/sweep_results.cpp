@@ -209,6 +209,7 @@ Result<SweepTable> read_sweep_csv(std::string_view text) {
     return invalid("line 1 is not 'point,...,outcome,...,reason'");
   const auto& names = rows.front();
   const auto figures = std::size_t(std::ranges::find(names, "outcome") - names.begin()) + 1;
+  if (figures > names.size()) return invalid("line 1 has no column 'outcome'");
   SweepTable table;
   for (std::size_t k = 1; k + 1 < figures; ++k)
     if (names[k] == "case" || names[k] == "seed")
@@ -218,7 +219,7 @@ Result<SweepTable> read_sweep_csv(std::string_view text) {
   for (std::size_t line = 1; line < rows.size(); ++line) {
     const auto& cells = rows[line];
     SweepTable::Row& row = table.rows.emplace_back();
-    if (cells.size() != names.size() || figures >= names.size())
+    if (cells.size() != names.size())
       return invalid("line {}: got {} cells, expected {} of a point of a sweep", line + 1,
                      cells.size(), names.size());
     for (std::size_t k = 0; k < figures; ++k)
@@ -306,10 +307,13 @@ Result<void> SweepLog::append(const PointResult& result) {
 }
 
 Result<void> SweepLog::put(const std::string& line) {
+  const std::uint64_t before = contents_.whole_bytes;
   if (const int code = append_whole(descriptor_, line, contents_.whole_bytes))
     return fail_io("write", file_, code);
-  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) return fail_io("write", file_, errno);
-  return {};
+  if (::fdatasync(descriptor_) == 0 || errno == EINVAL) return {};
+  const int code = errno;
+  if (::ftruncate(descriptor_, off_t(before)) == 0) contents_.whole_bytes = before;
+  return fail_io("write", file_, code);
 }
 
 tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) const {

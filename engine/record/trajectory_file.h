@@ -6,14 +6,7 @@
 //   /cells          {i, j, u_mm, v_mm, joints[4]}
 //   /cell_K         frames x cells      integrated Gauss curvature, rad
 //   /K_bins         frames x bins x 3   mean, standard deviation of K (rad), number of cells
-//   /axial_force_N    frames x edges     axial force of each edge, rod after rod
-//   /curvature_per_mm frames x points    curvature at each point of each rod, rod after rod
-//   /bending_mJ_per_m frames x points    bending energy over length, at the same points
-//   /stress_MPa       frames x points    largest stress of a fibre, at the same points
-//   /reactions_N      frames x supports x 3   reactions at joints, edge points, far ends of tails
-//   /loads_N          frames x supports x 3   loads, distributed to the same nodes
-//   /brace_force_N    frames x 2 cells   axial forces along both diagonals of each cell
-//   /joint_angle_deg, /joint_torque_Nmm   frames x joints, for joints with laws or springs
+//   /axial_force_N, ...                 the arrays of each_rod_field() (frame_columns.h)
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm, joint_diameter_mm,
 //                   joint_height_mm, table_mm (attributes); edge_points (nodes),
@@ -25,9 +18,7 @@
 //   /parts          building blocks and the rods across their seams
 //   /               title, preset, program (attributes)
 //
-// Axial forces, curvature, bending and stress along the rods are those of the finest mesh;
-// reactions are extrapolated as the energies of /frames are, and with the loads they balance to
-// residual_N. NaN, or no dataset: not known.
+// Reactions are extrapolated as the energies of /frames are. NaN, or no dataset: not known.
 //
 // The HDF5 part follows a header of 512 bytes with its size and checksum, which HDF5 programs skip.
 // Datasets have their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames are

@@ -84,9 +84,12 @@ tl::unexpected<Error> none_found(const record::StateSearch& search) {
   std::string why;
   for (const auto& [reason, count] : search.ended_otherwise)
     why += fmt::format("; {} {}", count, reason);
-  return fail(Fault::no_equilibrium, "none of {} trials ended in a stable state{}{}",
-              search.trials + search.confined_trials, why,
-              search.found == 0 ? "" : "; finer meshes have none of those they ended in");
+  const int trials = search.trials + search.confined_trials;
+  if (search.found == 0)
+    return fail(Fault::no_equilibrium, "none of {} trials ended in a stable state{}", trials, why);
+  return fail(Fault::no_equilibrium,
+              "finer meshes have none of the stable states in which {} of {} trials ended{}",
+              search.at_rest + search.confined_at_rest, trials, why);
 }
 
 using Measures = std::vector<std::optional<ShellState>>;

@@ -58,6 +58,12 @@ extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t a
   return real(descriptor, data, size, at);
 }
 
+extern "C" int fdatasync(int descriptor) {
+  static const auto real = next<int (*)(int)>("fdatasync");
+  if (fails(Call::sync)) return errno = EIO, -1;
+  return real(descriptor);
+}
+
 extern "C" int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");
   if (fails(Call::rename)) return errno = EIO, -1;

@@ -5,7 +5,7 @@
 #include <string>
 
 /// What can be made to fail.
-enum class Call { write, rename, mkdir, allocation, factorisation, solve };
+enum class Call { write, sync, rename, mkdir, allocation, factorisation, solve };
 
 /// Counts calls of this kind from now on, and makes the k-th of them (from 1) fail: a write as on a
 /// full disk, a factorisation as one that is not usable, a solve with NaN as its result. An

@@ -16,6 +16,7 @@
 #include "engine/core/file_io.h"
 #include "engine/record/journal.h"
 #include "engine/record/summary.h"
+#include "engine/record/sweep_results.h"
 #include "engine/record/trajectory_file.h"
 #include "render/gl/image.h"
 #include "tests/faults/faults.h"
@@ -165,6 +166,25 @@ class FailingRun {
 
 TEST_CASE("every write, rename and mkdir of a run fails once, and nothing is lost", "[standard]") {
   FailingRun(app::Pictures::none).try_out_all({Call::write, Call::rename, Call::mkdir}, 0);
+}
+
+TEST_CASE("a point of a sweep that cannot be synchronised with the disk is not in its log") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "sweep.jsonl";
+  auto log = record::SweepLog::open(file, {"a preset", 1, 2}, {},
+                                    [](std::size_t) { return record::PointKeys{}; });
+  REQUIRE(log);
+  record::PointResult point;
+  REQUIRE(log->append(point));
+  const std::string before = read_file(file).value();
+  point.point = 1;
+  fail_call(Call::sync, 1);
+  const auto failed = log->append(point);
+  fail_call(Call::sync, 0);
+  CHECK_FALSE(failed);
+  CHECK(read_file(file).value() == before);
+  REQUIRE(log->append(point));
+  CHECK(record::read_sweep_log(file)->found.size() == 2);
 }
 
 TEST_CASE("every call and solve of a movie fails once, and nothing is lost or false", "[full]") {

@@ -132,6 +132,11 @@ TEST_CASE("where an entity is, what it may be, and the unit of a drawing") {
   CHECK(read("").unit_mm == 0);
   CHECK(read("", section("HEADER", "9\n$INSUNITS\n70\n21\n")).unit_mm ==
         Approx(1200e3 / 3937));  // US survey foot
+  for (const auto& [number, name, mm] : {std::tuple(15, "dam", 1e4), {17, "Gm", 1e12}}) {
+    const auto far = read("", section("HEADER", fmt::format("9\n$INSUNITS\n70\n{}\n", number)));
+    CHECK(far.unit == name);
+    CHECK(far.unit_mm == mm);
+  }
 }
 
 TEST_CASE("what is no whole drawing is refused") {

@@ -1,7 +1,11 @@
 // Trajectories whose datasets are missing, links to elsewhere, or made by another program.
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <new>
+#include <thread>
 #include <vector>
 
 #include "engine/core/system_info.h"
@@ -113,4 +117,26 @@ TEST_CASE("a reading in a process of its own gets no more than a part of the mac
   const std::uint64_t most = std::max(machine_memory_bytes() / 4, std::uint64_t(1) << 30);
   CHECK_THAT(gridshell::refusal(taking(most + (std::uint64_t(64) << 20))),
              Catch::Contains("does not survive reading it"));
+}
+
+TEST_CASE(
+    "a reading in a process of its own is judged where ended processes leave no status, too") {
+  for (const auto on_end : {SIG_DFL, SIG_IGN}) {
+    const auto before = std::signal(SIGCHLD, on_end);
+    CHECK(read_in_subprocess([] {}));
+    for (const auto& failing : {std::function<void()>([] { std::abort(); }),
+                                std::function<void()>([] { throw std::bad_alloc(); })})
+      CHECK_THAT(gridshell::refusal(read_in_subprocess(failing)),
+                 Catch::Contains("does not survive reading it"));
+    std::signal(SIGCHLD, before);
+  }
+}
+
+TEST_CASE("the time of a reading is that of the processor, so that a stopped program may continue",
+          "[full]") {
+  CHECK(read_in_subprocess([] { std::this_thread::sleep_for(std::chrono::seconds(21)); }));
+  CHECK_THAT(gridshell::refusal(read_in_subprocess([] {
+               for (volatile bool endless = true; endless;) continue;
+             })),
+             Catch::Contains("takes more than 20 s"));
 }

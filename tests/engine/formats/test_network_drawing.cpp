@@ -140,8 +140,13 @@ TEST_CASE("the unit is that of the key, else that of the drawing, else mm") {
   const auto likely = read(grid(), {.rod_mm = 0.25}, units(6));
   CHECK(width(likely) == 60);
   REQUIRE(likely.report.notes.size() == 1);
-  CHECK_THAT(likely.report.notes[0],
-             Catch::Contains("says that it is in m") && Catch::Contains("file_unit"));
+  CHECK_THAT(likely.report.notes[0], Catch::Contains("says that it is in m") &&
+                                         Catch::Contains("; file_unit = \"m\" reads"));
+  // units that file_unit does not have
+  const auto yards = read(grid(), {.rod_mm = 0.25}, units(10));
+  REQUIRE(yards.report.notes.size() == 1);
+  CHECK_THAT(yards.report.notes[0],
+             Catch::Contains("; file_unit = \"m\" with the drawing scaled by 0.9144 reads"));
   CHECK(width(read(grid(), {.rod_mm = 25}, units(6))) == Approx(60000));
   CHECK(value_of(read_network("v 0 0 0\nv 0.5 0 0\nl 1 2\n", "n.obj", {.unit_mm = 1000}))
             .points[1][0] == 500);

@@ -93,10 +93,74 @@ TEST_CASE("shapes of an SVG have their transforms, what is not drawn does not co
   CHECK_THAT(found.text, Contains("the largest of 2 closed lines; not used: 1 text"));
   CHECK(outline(svg("<ellipse rx=\"40\" ry=\"20\"/>", "width=\"20cm\""), "a.svg").area ==
         Approx(M_PI * 40 * 20).epsilon(1e-3));
+  // a quoted ">" ends no tag
+  CHECK(outline(svg("<rect aria-label=\"a>b\" width='30' height=\"20\"/>"), "a.svg").area ==
+        Approx(600));
   // without a unit a pixel is 1/96 inch, and file_unit is believed
   const std::string bare = svg("<polygon points=\"0,0 96,0 96,96 0 96\"/>", "");
   CHECK(outline(bare, "a.svg").high.x() == Approx(25.4));
   CHECK(outline(bare, "a.svg", {.unit_mm = 1000}).high.x() == Approx(96000));
+}
+
+TEST_CASE("lengths of an SVG have their units, lengths relative to something else are refused") {
+  const auto size = [](const std::string& text) {
+    const Outline found = outline(text, "a.svg");
+    return Eigen::Vector2d(found.high - found.low);
+  };
+  const auto sized = [](const std::string& attributes, const std::string& shape) {
+    return "<svg " + attributes + ">" + shape + "</svg>";
+  };
+  const std::string rect = "<rect width=\"400\" height=\"320\"/>";
+  const double pixel = 25.4 / 96;
+  // the width is that of the sheet: only a viewBox relates it to the numbers of the shapes
+  CHECK(size(sized("width=\"200mm\" height=\"160mm\"", rect))
+            .isApprox(pixel * Eigen::Vector2d(400, 320)));
+  CHECK(size(sized("width=\"200mm\" viewBox=\"0 0 400 320\"", rect))
+            .isApprox(Eigen::Vector2d(200, 160)));
+  CHECK(size(sized("width=\"800\" viewBox=\"0 0 400 320\"", rect))
+            .isApprox(pixel * Eigen::Vector2d(800, 640)));
+  // the drawing is as large as both sides permit
+  CHECK(size(sized("width=\"400mm\" height=\"80mm\" viewBox=\"0 0 400 320\"", rect))
+            .isApprox(Eigen::Vector2d(100, 80)));
+  // a millimetre is 96/25.4 units of the viewBox
+  const std::string units = "<rect x=\"1in\" width=\"100mm\" height=\"6pc\"/>";
+  CHECK(size(sized("", units)).isApprox(Eigen::Vector2d(100, 25.4)));
+  CHECK(size(svg(units)).isApprox(Eigen::Vector2d(100, 25.4) / pixel));
+  CHECK(size(svg("<circle r=\"10mm\"/>")).isApprox(Eigen::Vector2d(20, 20) / pixel));
+  CHECK_THAT(refused(svg("\n<rect width=\"50%\" height=\"3\"/>"), "a.svg"),
+             Contains("a.svg:4: <rect> has width = \"50%\", expected a number or a length in mm") &&
+                 Contains("convert the shape to a path"));
+  CHECK_THAT(refused(svg("<svg viewBox=\"0 0 1 1\">" + rect + "</svg>"), "a.svg"),
+             Contains("a.svg:3: got an <svg> within an <svg>, expected one: ungroup it"));
+  CHECK(size(svg("<svg>" + rect + "</svg>")).isApprox(Eigen::Vector2d(400, 320)));
+}
+
+TEST_CASE("hidden shapes of an SVG do not count, whatever hides them") {
+  const std::string seen = "<rect width=\"30\" height=\"20\"/>";
+  const auto area = [&](const std::string& other) {
+    return outline(svg(seen + other), "a.svg").area;
+  };
+  const std::string wide = " width=\"90\" height=\"90\"/>";
+  for (const std::string shape :
+       {"<rect visibility=\"hidden\"", "<rect style=\"fill:none; visibility : collapse\"",
+        "<rect style=\"display:\nnone\"",
+        "<style>.a{fill:red} .b, .c {display:none}</style><rect class=\"a c\"",
+        "<style><![CDATA[/* a */ #own { visibility: hidden }]]></style><rect id=\"own\""})
+    CHECK(area(shape + wide) == Approx(600));
+  CHECK(area("<rect class=\"late\"" + wide + "<style>.late{display:none}</style>") == Approx(600));
+  for (const std::string shape :
+       {"<rect visibility=\"visible\"", "<rect display=\"none\" style=\"display:inline\"",
+        "<style>.b{display:none}</style><rect class=\"a\"",
+        "<style>@media print{*{fill:red}} g > path{fill:red}</style><rect"})
+    CHECK(area(shape + wide) == Approx(8100));
+  // visibility is inherited, and a part of a hidden group may be visible
+  const auto group = [&](const std::string& inner) {
+    return area("<g visibility=\"hidden\"><rect" + inner + wide + "</g>");
+  };
+  CHECK(group("") == Approx(600));
+  CHECK(group(" visibility=\"visible\"") == Approx(8100));
+  CHECK_THAT(refused(svg(seen + "<style>g > rect{display:none}</style>"), "a.svg"),
+             Contains("a.svg:3: <style> may hide or move shapes by \"g > rect\", expected"));
 }
 
 TEST_CASE("lines of a drawing that meet end to end are one outline, in any order") {
@@ -160,6 +224,8 @@ TEST_CASE("what is no outline is refused with its position") {
   CHECK_THAT(refused(svg("<path d=\"M0 0 X 5\"/>"), "a.svg"), Contains("a command 'X'"));
   CHECK_THAT(refused(svg("<g transform=\"fold(3)\"/>"), "a.svg"), Contains("is not understood"));
   CHECK_THAT(refused(svg(""), "a.svg"), Contains("no closed outline, and no line"));
+  CHECK_THAT(refused(svg("<path d=\"M0 0 H9 H4 z\"/>"), "a.svg"),
+             Contains("no closed outline: 1 closed line without area"));
   CHECK_THAT(refused("<svg", "a.svg"), Contains("a tag does not end"));
   CHECK_THAT(refused("", "plan.pdf"), Contains("ends in .dxf, .svg or .obj"));
 }

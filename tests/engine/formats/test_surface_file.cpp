@@ -202,3 +202,14 @@ TEST_CASE("a preset contains the surface of its file, and its text reads back as
           "expected one of the 1 before it");
   refused("{vertices_mm = [[0, 0]], triangles = [[0, 0, 0]]}", "expected points [x, y, z]");
 }
+
+TEST_CASE("the message on too many vertices of a mesh has the limit that was met") {
+  MeshBuilder builder(1);
+  const std::string where = "many.stl";
+  std::string refused = "none";
+  // all at one position, as in a file of separate triangles
+  for (std::size_t k = 0; k <= 3 * MeshBuilder::most_triangles && refused == "none"; ++k)
+    if (const auto added = builder.add_vertex({0, 0, 0}, where); !added)
+      refused = added.error().message;
+  CHECK(refused == "many.stl: got more than 3000000 vertices, expected fewer");
+}

@@ -226,6 +226,22 @@ TEST_CASE("utilisation needs a strength, which is said once") {
              Catch::Contains("and of [rod_v] where it differs"));
 }
 
+TEST_CASE("rods of any table and section leave room between neighbours") {
+  for (const char* one : {"[rod_v]\ndiffers = true\ndiameter_mm = 30\n",
+                          "[rod]\nwidth_mm = 30\nthickness_mm = 1\nshear_GPa = 30\n"})
+    CHECK_THAT(errors_of(one), Catch::Contains("neighbouring rods would touch"));
+  CHECK(errors_of("[rod]\nyield_strain = 5\n") != "none");
+}
+
+TEST_CASE("pictures of a push, or of none, do not request the other's") {
+  CHECK_THAT(errors_of("[movie]\ncolour_by = \"displacement\"\n"),
+             Catch::Contains("over the depth of a push"));
+  const std::string push = "[indentation]\njoint = [0, 0]\ndepth_mm = 1\n";
+  CHECK(errors_of("[movie]\ncolour_by = \"displacement\"\n" + push) == "none");
+  CHECK_THAT(errors_of("[figure]\nradii_mm = [126]\n" + push),
+             Catch::Contains("stills of a push or of steps"));
+}
+
 TEST_CASE("further views are as steep as the first one may be") {
   CHECK_THAT(errors_of("[movie]\nviews = [[0, 90], [30, -90.5]]\n"),
              Catch::Contains("[movie] views") && Catch::Contains("between -90 and 90"));

@@ -127,7 +127,6 @@ Preset pushed(bool joint) {
   preset.footprint.rods = changed.footprint.rods;
   preset.footprint.radius_mm = 130.5;
   preset.actuation.radius_mm = changed.actuation.radius_mm;
-  preset.figure.radii_mm = {120.1, 1e2};
   preset.rod.diameter_mm = 0.3;
   preset.rod.density_kg_m3 = 6450;
   preset.rod.yield_strain = 0.011;
@@ -204,6 +203,7 @@ std::vector<Preset> samples() {
   Preset by_leg;
   by_leg.footprint.longest_leg = 2.3;
   by_leg.actuation.ratio = 0.81;
+  by_leg.figure.radii_mm = {150.1, 4e2 / 3};
   by_leg.accuracy.leading_edges = 5;
   by_leg.contact = {ContactModel::barrier, 0.2, 2.5};
   by_leg.page = {PageKind::fig2, "its photo.png", "out/a sweep"};

@@ -89,6 +89,15 @@ TEST_CASE("a summary reads back as it was") {
     CHECK(read_summary(path)->limit == limit);
   }
   CHECK(std::string(word_of(Limit::branch_lost)) == "branch_lost");
+  // the last frame of a run that was stopped in motion: its stability is not known
+  Summary moving = summary;
+  Frame last;
+  last.negative_pivots = -1;
+  moving.take_state(last);
+  CHECK(nlohmann::ordered_json::parse(to_json(moving))["negative_pivots"].is_null());
+  REQUIRE(write_summary(path, moving));
+  CHECK(read_summary(path)->negative_pivots == -1);
+  CHECK(read_summary(path)->solved);
 }
 
 TEST_CASE("a summary that is none is refused by its key") {

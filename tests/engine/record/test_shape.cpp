@@ -137,13 +137,16 @@ TEST_CASE("a GLB of many joints has fewer key shapes instead of more than 20 MB"
 
 TEST_CASE("a page contains the run, and a title cannot end its script") {
   const record::Trajectory run = sample_trajectory();
-  const auto page = value_of(to_page(run, "</script><b>bold"));
+  const std::string title = "</script><b>bold<!--<script";
+  const auto page = value_of(to_page(run, title));
   CHECK(page.starts_with("<!DOCTYPE html>"));
   CHECK(count(page, "</script>") == 2);
   CHECK(page.find("/*RUN*/") == page.npos);
   const std::size_t from = page.find("application/json\">") + 18;
   const Json json = parsed(page.substr(from, page.find("</script>", from) - from));
   REQUIRE(json.is_object());
+  CHECK(page.find("<!--") == page.npos);
+  CHECK(json["title"] == title);
   CHECK(json["frames"].size() == run.frames.size());
   CHECK(json["rods"].size() == run.layout.rods.size());
   // three numbers of two bytes a node, in letters of six bits

@@ -155,6 +155,8 @@ TEST_CASE("a cell of a table that is no value of its column is named") {
         "line 2: footprint.rods: got '1.5', expected a value of a sweep");
   CHECK(gridshell::refusal(read_sweep_csv(head + "0,0.5\n")) ==
         "line 2: got 2 cells, expected 5 of a point of a sweep");
+  CHECK(gridshell::refusal(read_sweep_csv("point,rod.diameter_mm,reason\n0,0.5,\n")) ==
+        "line 1 has no column 'outcome'");
   CHECK(gridshell::refusal(read_sweep_csv(head)) ==
         "got no point of a sweep, expected at least one");
 }

@@ -49,7 +49,7 @@ TEST_CASE("the shell of Fig. 1 loses its two mirrors near the flat", "[standard]
   CHECK(branches[1].back().amplitude == Approx(-branches[2].back().amplitude).epsilon(1e-4));
 }
 
-TEST_CASE("a closed branch is followed once round, and one that goes on says so") {
+TEST_CASE("a closed branch is followed once round, and one that continues says so") {
   const std::string push =
       "[footprint]\nrods = 6\nradius_mm = 66\n[actuation]\nratio = 0.9\n[indentation]\n"
       "joint = [0, 0]\ndepth_mm = 20\n";
