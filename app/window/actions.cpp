@@ -18,10 +18,10 @@ auto& member_of(auto& viewer) {
 /// An action that switches a flag.
 template <auto flag>
 constexpr Action toggle(const char* name, const char* menu, const char* label, Shortcut key,
-                        const char* help) {
+                        const char* help, std::string (*why_not)(const ViewerState&) = nullptr) {
   constexpr auto act = [](ViewerState& viewer) { member_of<flag>(viewer) ^= true; };
   constexpr auto on = [](const ViewerState& viewer) { return member_of<flag>(viewer); };
-  return {name, menu, label, key, help, act, on};
+  return {name, menu, label, key, help, act, on, why_not};
 }
 
 template <ColourBy by>
@@ -110,6 +110,10 @@ std::string none_prescribed(const ViewerState& viewer) {
 std::string already_stable(const ViewerState& viewer) {
   if (!viewer.shell->any()) return no_shell(viewer);
   return viewer.shell->stable() ? "the shell is stable" : "";
+}
+
+std::string no_lowest_mode(const ViewerState& viewer) {
+  return viewer.animate_mode ? "" : already_stable(viewer);
 }
 
 std::string one_state(const ViewerState& viewer) {
@@ -219,7 +223,7 @@ const Action table[] = {
      "from an unstable state against its lowest mode to an equilibrium",
      [](auto& v) { v.send_command(Rest{BranchSide::against}); }, nullptr, already_stable},
     below_line(toggle<&ViewerState::animate_mode>("soft_mode", "Shell", "Lowest mode", on(Key::m),
-     "moves an unstable shell forward and back along its lowest mode")),
+     "moves an unstable shell forward and back along its lowest mode", no_lowest_mode)),
     toggle<&ViewerState::push_freely>("push_freely", "Shell", "Push freely", on(Key::f),
      "a joint goes with the mouse in every direction instead of along its normal"),
 
@@ -279,7 +283,7 @@ const Action table[] = {
      "shows the original and the actuated boundary"),
     toggle<&Show::ground>("ground", "View", "Ground", none, "shows the ground"),
     toggle<&Show::net>("net", "View", "Net", on(Key::n),
-     "lays the net that it was designed on over the shell"),
+     "lays the net that it was designed on over the shell", not_on_net),
     toggle<&Show::footprint>("footprint", "View", "Footprint", none,
      "lays the flat footprint over it"),
     toggle<&Show::loads>("loads", "View", "Loads", none,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Open {
 /// Replaces the preset by one with other values of some keys.
 struct Change {
   preset::Preset preset;
+  std::string remark = {};  ///< for the message of its result
 };
 /// Moves the boundary to a progress of its motion.
 struct Move {

@@ -209,6 +209,8 @@ Result<void> EditSession::act(const Change& command, const Watch& watch) {
   auto changed = change_preset(command.preset, watch);
   if (!changed && changed.error().fault == Fault::bad_input)
     view_.offer = nearest_that_works(view_.preset, command.preset);
+  if (changed && !command.remark.empty())
+    view_.message += (view_.message.empty() ? "" : "; ") + command.remark;
   return changed;
 }
 

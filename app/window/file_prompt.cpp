@@ -116,17 +116,13 @@ struct CardGroup {
 const CardGroup groups[] = {
     {"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
     {"Figures of the paper", {"fig"}},
-    {"Pages of the paper", {"page_"}},
+    {"Pages of the paper", {"page_fig"}},
     {"Designed to meet a surface", {"design_", "ring_"}},
     {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
     {"Networks of rods", {"network_"}},
+    {"Timber", {"timber_"}},
+    {"Literature", {"lit_", "page_literature"}},
     {"Models, limits, loads, steps", {""}}};
-
-const CardGroup& group_of(const std::string& name) {
-  return *std::ranges::find_if(groups, [&](const CardGroup& group) {
-    return std::ranges::any_of(group.begins, [&](auto begin) { return name.starts_with(begin); });
-  });
-}
 
 constexpr double card_points = 216;             // the least width of a card
 constexpr float height_of_width = 160 / 256.f;  // of the pictures in presets/pictures/cards
@@ -145,6 +141,14 @@ std::string shortened(const std::string& title, float width) {
 }
 
 }  // namespace
+
+const char* group_of(const std::string& preset) {
+  const auto begins = [&](std::string_view begin) { return preset.starts_with(begin); };
+  return std::ranges::find_if(
+             groups,
+             [&](const CardGroup& group) { return std::ranges::any_of(group.begins, begins); })
+      ->title;
+}
 
 /// Reads the folder again if another one is shown or if it changed.
 void FilePrompt::look(FileUse use, const std::string& folder) {
@@ -347,7 +351,7 @@ void PresetPicker::draw(const Panel& panel, const render::Box& box) {
     ImGui::TextDisabled("no preset has these words");
   for (const CardGroup& group : groups) {
     const auto shown = [&](const PresetCard& card) {
-      return &group_of(card.name) == &group &&
+      return group_of(card.name) == group.title &&
              contains_words(card.name + " " + card.title, sought_);
     };
     if (std::ranges::none_of(cards, shown)) continue;

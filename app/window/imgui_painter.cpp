@@ -169,13 +169,18 @@ Result<render::Image> picture_of(const PictureRequest& requested, render::Render
                            height, least_px * std::max(1.0, height / 720.0));
   if (!image || !request.format.legend) return image;
   const double font = std::max(9.0, height / 45.0);
-  const auto key = render::arrow_key(*request.shell->layout, request.show.largest_load_N);
-  if (key && request.show.loads && request.shell->frame.loads_N.cols() > 0) {
+  const std::string loads =
+      request.show.loads ? render::load_caption(request.shell->frame) : std::string();
+  if (!loads.empty()) {
+    const auto key = arrow_key_of(*request.shell, request.show);
     const double per_mm = 1 / mm_per_pixel(request.camera, {double(width), double(height)});
     render::draw_over(*image, [&](render::Canvas& canvas) {
-      draw_arrow_key(canvas,
-                     {font, height - 3.5 * font, key->length_mm * per_mm + 6 * font, 3 * font},
-                     *key, per_mm, font);
+      if (key)
+        draw_arrow_key(canvas,
+                       {font, height - 3.5 * font, key->length_mm * per_mm + 6 * font, 3 * font},
+                       *key, per_mm, font);
+      else
+        canvas.text(loads, {font, height - font}, {.size = font});
     });
   }
   if (request.show.colour_by == ColourBy::none ||

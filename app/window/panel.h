@@ -14,6 +14,7 @@
 
 #include "app/window/actions.h"
 #include "app/window/new_shell.h"
+#include "app/window/plot_curve.h"
 #include "engine/gridshell.h"
 #include "render/canvas/canvas.h"
 #include "render/gl/opengl.h"
@@ -156,31 +157,6 @@ struct TextColours {
 };
 const TextColours& text_colours(bool dark);
 void coloured_text(ImU32 colour, const std::string& text);
-
-// A small plot within a panel.
-
-/// A position on the abscissa, or an interval of it.
-struct CurveMark {
-  float from, to;
-  bool unstable;  ///< there is no stable state; else an event happened there
-  std::string what;
-};
-
-/// One curve, or two over the same x.
-struct Curve {
-  const char* y_label;
-  const char* x_label;
-  const char* without;  ///< text that is shown if there is nothing to plot
-  std::vector<float> x, y;
-  bool bars = false;
-  std::vector<std::size_t> jumps = {};     ///< points without a line from the one before
-  std::vector<float> second = {};          ///< y of a second curve, which is paler
-  bool logarithmic = false;                ///< y, which is above 0
-  std::vector<std::size_t> unstable = {};  ///< points of unstable states
-  std::vector<std::size_t> coarse = {};    ///< points on the coarse mesh of a drag, which are pale
-  std::vector<CurveMark> marks = {};
-  bool whole = false;  ///< x are whole numbers
-};
 
 /// Draws a curve in the rectangle between two corners, pixels.
 void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve);

@@ -83,7 +83,7 @@ std::vector<std::string> known_values(const ShellView& shell, int node, double a
     if (std::isfinite(value)) lines.push_back(std::move(line));
   };
   add(axial_force_N, fmt::format("axial force {:.3g} N", axial_force_N));
-  add(curvature_per_mm, fmt::format("curvature {:.4f} 1/mm", curvature_per_mm));
+  add(curvature_per_mm, fmt::format("curvature {:#.3g} 1/mm", curvature_per_mm));
   add(bending, fmt::format("bending {:.3g} mJ/m", bending));
   add(stress, fmt::format("stress {:.3g} MPa", stress));
   if (std::isfinite(stress) && std::isfinite(used))

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,16 +37,14 @@ class PlotBox {
       : panel_(panel),
         list_(*ImGui::GetWindowDrawList()),
         line_(ImGui::GetTextLineHeight()),
+        low_x_(low.x),
         from_{low.x + panel.px(58), low.y + 1.3f * line_},
-        to_{high.x, high.y - 1.3f * line_} {
-    list_.AddRectFilled(from_, to_, ImGui::GetColorU32(ImGuiCol_FrameBg));
-    list_.AddRect(from_, to_, ImGui::GetColorU32(ImGuiCol_Border));
-  }
+        to_{high.x, high.y - 1.3f * line_} {}
 
   void draw(const Curve& curve) {
     title(curve.x.empty() ? curve.y_label
                           : fmt::format("{} over {}", curve.y_label, curve.x_label));
-    if (curve.x.empty()) return say_none(curve.without);
+    if (curve.x.empty()) return draw_frame(), say_none(curve.without);
     const Span x = curve.bars ? Span(-1, 1) : Span(curve.x);
     const auto shown = [&](float value) {
       return curve.logarithmic ? std::log10(std::max(1e-9f, value)) : value;
@@ -64,15 +61,18 @@ class PlotBox {
             {from_.x + x.at(curve.x[k]) * (to_.x - from_.x), height_of(y, shown(values[k]))});
       return points;
     };
+    const std::vector<LabelY> labels = labels_y(y, curve.logarithmic);
+    for (const LabelY& label : labels) from_.x = std::max(from_.x, low_x_ + label.width);
+    draw_frame();
     draw_marks(curve, x);
-    ticks_y(y, curve.logarithmic);
+    ticks_y(y, labels);
     ticks_x(x, curve.whole);
     const auto points = points_of(curve.y);
     if (curve.bars)
       draw_bars(points, height_of(y, 0));
     else
-      draw_line(points, curve, ink());
-    if (!curve.second.empty()) draw_line(points_of(curve.second), curve, pale());
+      draw_line(points, curve, curve.y, ink());
+    if (!curve.second.empty()) draw_line(points_of(curve.second), curve, curve.second, pale());
     for (const std::size_t k : curve.unstable)
       list_.AddCircleFilled(points[k], panel_.px(2.5), text_colours(panel_.viewer.show.dark).error);
     show_nearest(curve, points);
@@ -87,8 +87,12 @@ class PlotBox {
   static ImU32 ink() { return ImGui::GetColorU32(ImGuiCol_PlotLines); }
 
   void title(const std::string& text) {
-    list_.AddText({from_.x - panel_.px(58), from_.y - 1.3f * line_},
-                  ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    list_.AddText({low_x_, from_.y - 1.3f * line_}, ImGui::GetColorU32(ImGuiCol_Text),
+                  text.c_str());
+  }
+  void draw_frame() {
+    list_.AddRectFilled(from_, to_, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    list_.AddRect(from_, to_, ImGui::GetColorU32(ImGuiCol_Border));
   }
   void say_none(const char* text) {
     const ImVec2 size = ImGui::CalcTextSize(text);
@@ -103,33 +107,17 @@ class PlotBox {
                             ink());
     list_.AddLine({from_.x, zero}, {to_.x, zero}, pale());
   }
-  void draw_line(const std::vector<ImVec2>& points, const Curve& curve, ImU32 colour) {
-    std::vector<std::size_t> ends = curve.jumps;
-    ends.push_back(points.size());
-    std::size_t from = 0;
-    for (const std::size_t end : ends) {
-      const ImU32 shade = std::ranges::binary_search(curve.coarse, from) ? pale() : colour;
-      draw_known(points, from, end, shade);
-      from = end;
+  /// Draws the pieces of a curve with the ordinates `y`, which are at `points`.
+  void draw_line(const std::vector<ImVec2>& points, const Curve& curve, const std::vector<float>& y,
+                 ImU32 colour) {
+    for (const CurvePiece& piece : pieces_of(curve, y)) {
+      const ImU32 shade = piece.coarse ? pale() : colour;
+      // one by one: a polyline becomes thin at a sharp corner
+      for (std::size_t k = piece.from; k + 1 < piece.end; ++k)
+        list_.AddLine(points[k], points[k + 1], shade, panel_.px(1.4));
+      if (piece.is_point()) list_.AddCircleFilled(points[piece.from], panel_.px(2), shade);
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
-  }
-  /// Draws a line through the points from `from` to before `end`, with gaps at unknown ones.
-  void draw_known(const std::vector<ImVec2>& points, std::size_t from, std::size_t end,
-                  ImU32 shade) {
-    const auto known = [&](std::size_t k) {
-      return std::isfinite(points[k].x) && std::isfinite(points[k].y);
-    };
-    while (from < end) {
-      while (from < end && !known(from)) ++from;
-      std::size_t to = from;
-      while (to < end && known(to)) ++to;
-      // one by one: a polyline becomes thin at a sharp corner
-      for (std::size_t k = from; k + 1 < to; ++k)
-        list_.AddLine(points[k], points[k + 1], shade, panel_.px(1.4));
-      if (to == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), shade);
-      from = to;
-    }
   }
   /// Draws unstable intervals as bands, and events as lines.
   void draw_marks(const Curve& curve, const Span& x) {
@@ -145,23 +133,36 @@ class PlotBox {
                           mark.unstable ? (colour & 0xffffff) | 0x38000000 : colour);
     }
   }
-  /// Draws labels at round values, and lines of a grid at them.
-  void ticks_y(const Span& y, bool logarithmic) {
+  /// A label of the axis y.
+  struct LabelY {
+    float y;  ///< as it is drawn: the logarithm on a logarithmic axis
+    std::string text;
+    float width;  ///< with the gap to the frame, pixels
+  };
+  std::vector<LabelY> labels_y(const Span& y, bool logarithmic) const {
     const int count = std::max(1, int((to_.y - from_.y) / (2.2f * line_)));
-    float last = to_.y + line_;  // height of the label below
     const std::vector<render::Tick> ticks =
         logarithmic ? render::log_ticks(std::pow(10., y.low), std::pow(10., y.high), count)
                     : render::linear_ticks(double(y.low), double(y.high), count);
+    std::vector<LabelY> labels;
     for (const render::Tick& tick : ticks) {
       if (!tick.major) continue;
-      const float at = height_of(y, float(logarithmic ? std::log10(tick.value) : tick.value));
-      const std::string text = fmt::format("{:.6g}", tick.value);
+      std::string text = fmt::format("{:.6g}", tick.value);
+      const float width = ImGui::CalcTextSize(text.c_str()).x + panel_.px(4);
+      labels.push_back(
+          {float(logarithmic ? std::log10(tick.value) : tick.value), std::move(text), width});
+    }
+    return labels;
+  }
+  /// Draws labels at round values, and lines of a grid at them.
+  void ticks_y(const Span& y, const std::vector<LabelY>& labels) {
+    float last = to_.y + line_;  // height of the label below
+    for (const LabelY& label : labels) {
+      const float at = height_of(y, label.y);
       list_.AddLine({from_.x, at}, {to_.x, at}, grid());
       if (last - at < line_) continue;
       last = at;
-      list_.AddText(
-          {from_.x - ImGui::CalcTextSize(text.c_str()).x - panel_.px(4), at - 0.5f * line_}, pale(),
-          text.c_str());
+      list_.AddText({from_.x - label.width, at - 0.5f * line_}, pale(), label.text.c_str());
     }
   }
   void ticks_x(const Span& x, bool whole) {
@@ -204,90 +205,9 @@ class PlotBox {
 
   const Panel& panel_;
   ImDrawList& list_;
-  float line_;
-  ImVec2 from_, to_;
+  float line_, low_x_;  // height of a line of text; the left edge of title and labels
+  ImVec2 from_, to_;    // corners of the frame
 };
-
-constexpr double jump = 0.2;  // progress between two equilibria that no line connects
-
-/// Abscissa of the curves if none was chosen: the depth of the last push, else the motion of the
-/// boundary, else, if it does not move, the number of the equilibrium.
-int abscissa_of(const ViewerState& viewer, std::span<const PlotPoint> points) {
-  if (points.empty() || points.back().joint >= 0) return quantity_called("depth_mm");
-  const bool moved = std::ranges::any_of(points, [&](const PlotPoint& point) {
-    return std::abs(point.progress - points.front().progress) > 1e-9;
-  });
-  if (!moved) return quantity_called("equilibrium");
-  return quantity_called(
-      std::isfinite(viewer.shell->frame.boundary_radius_mm) ? "boundary_radius_mm" : "progress");
-}
-
-/// Points since the constraint of the pushed joint was set.
-std::span<const PlotPoint> last_points(const ViewerState& viewer) {
-  std::span<const PlotPoint> all = viewer.plot_points;
-  std::size_t since = all.size();
-  while (since > 0 && all[since - 1].joint == all.back().joint) --since;
-  return all.subspan(since);
-}
-
-/// Adds the marks of the paths to a curve over the position on the path.
-void put_marks(const ShellView& shell, const Quantity& over, Curve& curve) {
-  const std::string_view name = over.name;
-  const int pushed = shell.constrained.empty() ? -1 : shell.constrained.back().joint;
-  for (const PathMark& mark : shell.marks) {
-    double from = mark.from, to = mark.to;
-    if (mark.joint < 0 && name == "boundary_radius_mm")
-      from = shell.radius_at(mark.to), to = shell.radius_at(mark.from);
-    else if (mark.joint < 0 ? name != "progress" : name != "depth_mm" || mark.joint != pushed)
-      continue;
-    if (from > to) std::swap(from, to);
-    curve.marks.push_back({float(from), float(to), mark.unstable, mark.what});
-  }
-}
-
-Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
-  const std::span<const PlotPoint> points = last_points(viewer);
-  const int x = axes.x >= 0 ? axes.x : abscissa_of(viewer, points);
-  const Quantity &over = quantities[std::size_t(x)], &shown = quantities[std::size_t(axes.y)];
-  Curve curve{shown.label, over.label, "nothing was done yet", {}, {}};
-  curve.whole = x == quantity_called("equilibrium");
-  if (&shown == &quantities[std::size_t(quantity_called("force_N"))] &&
-      (points.empty() || points.back().joint < 0))
-    return curve.without = "no joint is fixed", curve;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    // no line between states of their own, where the boundary jumped, or to the coarse mesh of a
-    // drag, which has other values
-    const auto apart = [&](const PlotPoint& a, const PlotPoint& b) {
-      return curve.whole || a.coarse != b.coarse ||
-             (b.joint < 0 && std::abs(b.progress - a.progress) > jump);
-    };
-    if (k > 0 && apart(points[k - 1], points[k])) curve.jumps.push_back(k);
-    if (points[k].coarse) curve.coarse.push_back(curve.x.size());
-    if (!points[k].stable) curve.unstable.push_back(curve.x.size());
-    curve.x.push_back(float(points[k].*over.value));
-    curve.y.push_back(float(points[k].*shown.value));
-  }
-  put_marks(*viewer.shell, over, curve);
-  return curve;
-}
-
-Curve bins_of(const ShellView& shell) {
-  Curve curve{"mean K□ of cells (rad)", "x/L", "no cells", {}, {}, true};
-  const auto& bins = shell.frame.K_bins;
-  if (!shell.any() || !bins.leftCols(1).array().isFinite().any()) return curve;
-  for (Eigen::Index k = 0; k < bins.rows(); ++k) {  // a bin without cells is unknown
-    curve.x.push_back(-1 + (2 * float(k) + 1) / float(bins.rows()));
-    curve.y.push_back(float(bins(k, 0)));
-  }
-  return curve;
-}
-
-PlottedCurve plotted(const Curve& curve) {
-  return {curve.x_label,
-          curve.y_label,
-          {curve.x.begin(), curve.x.end()},
-          {curve.y.begin(), curve.y.end()}};
-}
 
 /// The menu of a plot: other quantities, and saving the plot.
 void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std::string& name) {
@@ -301,7 +221,7 @@ void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std
   choose_quantity("Show", axes.y);
   choose_quantity("Over", axes.x);
   if (ImGui::MenuItem("Save as PDF, SVG, PNG and CSV", nullptr, false, !curve.x.empty()))
-    panel.viewer.save_plot(plotted(curve));
+    panel.viewer.save_plots({curve});
   panel.named(name + " save", "");
   ImGui::EndPopup();
 }
@@ -313,11 +233,6 @@ void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve)
 }
 
 // The panel of plots: three curves of the states so far, and K□ in bins.
-
-void ViewerState::save_plots() {
-  for (const PlotAxes& axes : plot_axes)
-    if (const Curve curve = curve_of(*this, axes); !curve.x.empty()) save_plot(plotted(curve));
-}
 
 void plots_panel(const Panel& panel, const render::Box& box) {
   begin_fixed("plots", box);

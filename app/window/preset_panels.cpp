@@ -17,9 +17,9 @@ namespace {
 using preset::Field;
 
 /// The tables that determine the shell. Those of its pictures have other controls.
-constexpr std::string_view shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
-                                             "footprint",    "net",    "actuation", "loads",
-                                             "imperfection", "limits", "accuracy",  "dynamics"};
+constexpr std::string_view shown_tables[] = {
+    "rod",   "rod_v",        "joints", "ends",    "footprint", "net",     "actuation",
+    "loads", "imperfection", "limits", "contact", "accuracy",  "dynamics"};
 
 float bound(double value) { return float(std::clamp(value, -1e9, 1e9)); }
 

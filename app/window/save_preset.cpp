@@ -1,4 +1,4 @@
-// Saves presets, pictures, movies, plots and exports of the shell; compares it with others.
+// Saves presets, pictures, movies and exports of the shell; compares it with others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 
 #include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
-#include "render/canvas/plot.h"
 
 namespace gridshell::window {
 namespace {
@@ -109,15 +108,36 @@ void ViewerState::put_view(preset::Preset& preset) const {
   const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
   if ((camera.target - fitted.target).norm() > shift_mm)
     for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 10));
-  if (show.colour_by == ColourBy::none || values_of(*shell, show).size() > 0)
-    movie.colour_by = show.colour_by;
-  if (range_of == RangeOf::hand) preset.style.range = {show.scale.low, show.scale.high};
+  const bool displacement = show.colour_by == ColourBy::displacement;
+  const double pushed_mm = displacement ? largest_push_mm(preset) : 0;
+  const bool known = show.colour_by == ColourBy::none || values_of(*shell, show).size() > 0;
+  if (known && (!displacement || pushed_mm > 0)) movie.colour_by = show.colour_by;
+  // an earlier range is that of another quantity
+  if (movie.colour_by != shell->preset.movie.colour_by) preset.style.range.clear();
+  if (range_of != RangeOf::hand || movie.colour_by != show.colour_by) return;
+  preset.style.range.clear();
+  // the displacements of a movie are over the depth of its push, those of the window in mm
+  const double unit = displacement ? pushed_mm : 1;
+  if (!displacement || !show.other)
+    preset.style.range = {show.scale.low / unit, show.scale.high / unit};
+}
+
+/// The largest depth, mm, of the push of a preset of this shell or of the pushes in its steps; 0:
+/// nothing is pushed.
+double ViewerState::largest_push_mm(const preset::Preset& preset) const {
+  if (preset.indentation.requested()) return shell->push.displacement.norm();
+  double largest = 0;
+  // at the ends of steps: a drag may have been deeper before
+  for (std::size_t k = 0; k < plot_points.size(); ++k)
+    if (k + 1 == plot_points.size() || plot_points[k + 1].steps > plot_points[k].steps)
+      largest = std::max(largest, plot_points[k].depth_mm);
+  return largest;
 }
 
 preset::Preset ViewerState::preset_to_save() const {
   preset::Preset preset = shell->preset;
-  put_view(preset);
   preset.indentation = {};
+  put_view(preset);
   // if only a circular boundary was moved, the preset with its radius gives the same shell
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   const bool moves = std::ranges::all_of(shell->steps, [](const auto& step) {
@@ -344,26 +364,6 @@ void ViewerState::report_finished_tasks() {
     else
       say(end->made.error().message, true);
   }
-}
-
-void ViewerState::save_plot(const PlottedCurve& curve) {
-  const fs::path stem = path_to_save({".pdf", ".svg", ".png", ".csv"});
-  render::Plot plot;
-  plot.x.label = curve.x_label;
-  plot.y.label = curve.y_label;
-  plot.series.push_back(render::line_series("", render::series_colour(0), 1.2));
-  if (curve.x.size() == 1) plot.series.back().marker = render::Marker::circle;
-  std::string table = fmt::format("{},{}\n", curve.x_label, curve.y_label);
-  for (std::size_t k = 0; k < curve.x.size(); ++k) {
-    plot.series.back().add(curve.x[k], curve.y[k]);
-    table += fmt::format("{},{}\n", curve.x[k], curve.y[k]);
-  }
-  const auto written =
-      make_folder_of(stem).and_then([&] { return render::write_plot(stem, plot); }).and_then([&] {
-        return write_file(stem.string() + ".csv", table);
-      });
-  if (!written) return say(written.error().message, true);
-  say("saved " + fs::absolute(stem).string() + ".pdf, .svg, .png and .csv");
 }
 
 void ViewerState::show_manual() {

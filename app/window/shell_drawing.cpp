@@ -268,6 +268,12 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   return drawing;
 }
 
+std::optional<render::ArrowKey> arrow_key_of(const ShellView& shell, const Show& show) {
+  if (!show.loads || shell.frame.loads_N.cols() == 0 || render::loads_all_alike(shell.frame))
+    return {};
+  return render::arrow_key(*shell.layout, show.largest_load_N);
+}
+
 double mm_per_pixel(const render::Camera& camera, const PictureSize& size) {
   return 2 * camera.half_extent_mm / size.height;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,9 @@ render::ColourScale next_scale(const render::ColourScale& before, const render::
 
 /// The drawing of a shell; `thin_mm`: width of 1.5 pixels, for thin lines.
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm);
+
+/// The scale of the arrows of loads; empty if none are drawn, or if they are not to scale.
+std::optional<render::ArrowKey> arrow_key_of(const ShellView& shell, const Show& show);
 
 /// Position in which a node is drawn, mm.
 Eigen::Vector3d node_position(const ShellView& shell, const Show& show, int node);

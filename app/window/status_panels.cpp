@@ -37,6 +37,15 @@ std::string text_of_step(const ShellView& shell) {
   return "";
 }
 
+std::string text_of_error(const Certificate& certificate) {
+  if (!std::isfinite(certificate.error_estimate_mm))
+    return "The error of the joints' positions is not known: it is estimated from what finer "
+           "meshes change, and this state is computed on one mesh.";
+  return fmt::format(
+      "The positions of the joints are known to {:.2g} mm, from what finer meshes change.",
+      certificate.error_estimate_mm);
+}
+
 void ViewerState::go_to_step(int step) {
   const int now = shell->undo_steps, all = now + shell->redo_steps;
   if (step == now && step > 0 && !timeline[std::size_t(step)].event.empty()) --step;
@@ -274,9 +283,8 @@ void why_popup(const Panel& panel) {
   } else {
     ImGui::TextWrapped(
         "Every small displacement raises the energy: the Hessian with the constraints is positive "
-        "definite. The residual force on a node is at most %.0e N. The positions of the joints are "
-        "known to %.2g mm, from what finer meshes change.",
-        shell.certificate.residual_N, shell.certificate.error_estimate_mm);
+        "definite. The residual force on a node is at most %.0e N. %s",
+        shell.certificate.residual_N, text_of_error(shell.certificate).c_str());
   }
   ImGui::PopTextWrapPos();
   ImGui::EndPopup();

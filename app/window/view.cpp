@@ -23,6 +23,7 @@
 #include "app/window/interface.h"
 #include "app/window/manual.h"
 #include "app/window/viewer_state.h"
+#include "app/window/workspace.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/scratch_folder.h"
@@ -292,9 +293,13 @@ Result<int> show(const ViewOptions& options, ViewerState& viewer) {
 Result<int> view(ViewOptions options) {
   if (options.bench > 0 && options.input.empty())
     return invalid("view --bench S takes a preset: gridshell view PRESET --bench S");
-  if (is_off_screen(options) && options.play.empty() && options.input.empty())
-    return invalid("view --shot PNG and --picture PNG take a preset or --play FILE");
   const bool off_screen = is_off_screen(options);
+  if (off_screen && options.play.empty() && options.input.empty())
+    return invalid("view --shot PNG and --picture PNG take a preset or --play FILE");
+  if (off_screen && !options.record.empty())
+    return invalid(
+        "view --record FILE records the input of the window, which --play, --shot, --picture and "
+        "--bench do not open");
   // no workspace off-screen or for a recording, so that it plays the same on every machine
   if (options.workspace.empty() && !off_screen && options.record.empty())
     options.workspace = workspace_file();

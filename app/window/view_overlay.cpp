@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/window/panel.h"
+#include "render/canvas/legend.h"
 #include "render/canvas/text.h"
 #include "render/gl/renderer.h"
 #include "render/movie/frame_overlay.h"
@@ -171,17 +172,16 @@ void Overlay::draw_scale() {
   const double length_mm = render::nice_ceiling(per_px * panel_.px(80));
   float x =
       draw_length(float(view_.x) + panel_.px(104), float(length_mm / per_px),
-                  fmt::format("{:g} mm", length_mm), ImGui::GetColorU32(ImGuiCol_Text), false);
+                  render::scale_bar_text(length_mm), ImGui::GetColorU32(ImGuiCol_Text), false);
   const auto ink = [](const render::Colour& c) {
     return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
   };
   const record::Frame& frame = shell_.frame;
   if (viewer_.show.braces && frame.brace_force_N.size() > 0)
     x = draw_length(x, panel_.px(30), "braces", ink(render::brace_ink), false);
-  const std::string sums = render::load_caption(frame);
-  const auto key = render::arrow_key(*shell_.layout, viewer_.show.largest_load_N);
-  if (!viewer_.show.loads || sums.empty() || !key) return;
-  x = draw_length(x, float(key->length_mm / per_px), key->name, ink(key->colour), true);
+  const std::string sums = viewer_.show.loads ? render::load_caption(frame) : "";
+  if (const auto key = arrow_key_of(shell_, viewer_.show))
+    x = draw_length(x, float(key->length_mm / per_px), key->name, ink(key->colour), true);
   if (x + ImGui::CalcTextSize(sums.c_str()).x < float(view_.right()))
     list_.AddText({x, float(view_.bottom()) - panel_.px(16) - 0.5f * ImGui::GetTextLineHeight()},
                   ImGui::GetColorU32(ImGuiCol_Text), sums.c_str());

@@ -23,6 +23,9 @@ struct PresetCard {
   std::string_view picture;  ///< a PNG of its shell; empty: none
 };
 
+/// The heading under which the page of presets has the preset of this name.
+const char* group_of(const std::string& preset);
+
 /// The format of saved pictures.
 struct PictureFormat {
   int width = 0, height = 0;  ///< pixels; 0: twice the view's
@@ -51,6 +54,8 @@ struct TimelineEntry {
 };
 /// The last step, as text: "pushed (0, 0): 8.16 mm, 0.0342 N".
 std::string text_of_step(const ShellView& shell);
+/// A sentence with the estimated error of the joints, which one mesh alone does not give.
+std::string text_of_error(const Certificate& certificate);
 
 /// Purpose of a file prompt.
 enum class FileUse { open, compare, save_preset, save_picture, export_shell };
@@ -129,11 +134,7 @@ struct PlotAxes {
   int x = -1, y = 0;
 };
 
-/// A plot to be saved.
-struct PlottedCurve {
-  std::string x_label, y_label;
-  std::vector<double> x, y;
-};
+struct Curve;
 
 /// The camera and the colours with which a shell was last shown.
 struct SavedCamera {
@@ -201,9 +202,10 @@ class ViewerState {
   std::optional<FileRequest> file_request;
   std::string last_folders[2];      ///< of the last saved file, and of the last opened one
   std::vector<std::string> recent;  ///< presets and runs that were opened, the last first
-  std::string copied;               ///< text for the clipboard
-  bool timed = true;                ///< whether times are shown
-  bool over = false;                ///< whether the window shall close
+  static constexpr std::size_t most_recent = 8;
+  std::string copied;  ///< text for the clipboard
+  bool timed = true;   ///< whether times are shown
+  bool over = false;   ///< whether the window shall close
 
   // ---- what is done ----
 
@@ -240,6 +242,8 @@ class ViewerState {
   double part() const;
   /// Sets the range of the colours; does nothing unless low < high.
   void set_range(double low, double high);
+  /// Switches the rods' weight. Without a density it takes that of their material and reports it;
+  /// if their material is not known either, it is refused.
   void toggle_gravity();
   bool gravity() const { return shell->preset.loads.gravity_m_s2 != 0; }
   void fit_view();
@@ -273,8 +277,8 @@ class ViewerState {
   void size_picture(int width, int height);
   /// Makes a movie in the background: of the steps, or, if there are none, of the preset.
   void save_movie();
-  /// Saves a plot as PDF, SVG, PNG and a table.
-  void save_plot(const PlottedCurve& curve);
+  /// Saves plots of curves, which are not empty, as PDF, SVG, PNG and a table.
+  void save_plots(const std::vector<Curve>& curves);
   /// Saves all plots that are not empty.
   void save_plots();
   /// Copies the camera, as keys of [movie].
@@ -296,6 +300,7 @@ class ViewerState {
   void watch_file(double seconds);
   render::Camera fitted_view() const;
   void put_view(preset::Preset& preset) const;
+  double largest_push_mm(const preset::Preset& preset) const;
   std::filesystem::path path_to_save(const std::vector<std::string>& endings) const;
   Result<void> write_preset(const preset::Preset& preset, const std::filesystem::path& file) const;
   void save_preset_as(const std::filesystem::path& file);
@@ -311,20 +316,5 @@ class ViewerState {
   std::filesystem::file_time_type written_{};
   double since_look_ = 0;
 };
-
-// The workspace: camera, colours, what is shown and which panels, saved when the window closes and
-// restored when it opens.
-
-/// The workspace as JSON.
-std::string workspace_text(const ViewerState& viewer);
-
-/// Applies a workspace to the viewer; members that are missing or have a wrong type change nothing.
-/// The camera is applied when a shell of the same preset is shown. Errors: bad_input if the text is
-/// no JSON object.
-Result<void> take_workspace(ViewerState& viewer, const std::string& text);
-
-/// The file of the workspace: $XDG_STATE_HOME/gridshell/workspace.json, or below ~/.local/state;
-/// empty if neither folder is known.
-std::filesystem::path workspace_file();
 
 }  // namespace gridshell::window

@@ -117,6 +117,24 @@ TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what
   const json heavy = played(folder, "down G\nup G\n");
   CHECK(heavy["gravity"] == true);
   CHECK(heavy["undo_steps"] == 1);
+  CHECK(message_of(heavy) == "[rod] density_kg_m3 = 6450 was assumed, that of nitinol");
+}
+
+TEST_CASE("rods without a density, of no known material, get no weight") {
+  const TemporaryFolder folder;
+  const json refused = played(folder, "do gravity\n", {}, shell + "[rod]\nyoung_GPa = 11\n");
+  CHECK(refused["gravity"] == false);
+  CHECK_THAT(message_of(refused), Contains("[rod] density_kg_m3"));
+}
+
+TEST_CASE("the input of no window is not recorded") {
+  const TemporaryFolder folder;
+  REQUIRE(write_file(folder / "small.toml", shell));
+  REQUIRE(write_file(folder / "visit.txt", "do undo\n"));
+  for (const std::string more : {"--play visit.txt", "--bench 0.1", "--picture shell.png"})
+    check_refused(("view small.toml --record record.txt " + more).c_str(), folder,
+                  Contains("--record"));
+  CHECK_FALSE(fs::exists(folder / "record.txt"));
 }
 
 TEST_CASE("what cannot be done is said in the window, and by the recording's line") {

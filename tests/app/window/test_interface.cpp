@@ -39,6 +39,13 @@ TEST_CASE("a parameter that is called as the words that are looked for is listed
   CHECK(number(after, "height_mm") > 5);
 }
 
+TEST_CASE("the search over the parameters finds a table by its name") {
+  const TemporaryFolder folder;
+  const json after = played(folder, "do find_number\nwait 0.1\ntype contact\nwait 0.1\n" +
+                                        click("@table_contact 0.5 0.5"));
+  CHECK(after["undo_steps"] == 0);
+}
+
 TEST_CASE("a number that may be none is typed, and its default is none again") {
   const TemporaryFolder folder;
   const std::string find = "do find_number\nwait 0.1\ntype joints diameter\nwait 0.1\n";

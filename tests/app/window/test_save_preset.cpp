@@ -51,3 +51,42 @@ TEST_CASE("the prompt of a preset that is saved closes, also with a remark") {
   CHECK_FALSE(viewer.message_bad);
   CHECK_THAT(viewer.message, Catch::Contains("mine.toml; numbers that were changed later"));
 }
+
+TEST_CASE("a range of displacements is saved over the depth of the push, as movies have it") {
+  ViewerState viewer({});
+  viewer.view = {800, 600};
+  EditedShell edited;
+  const auto show = [&] {
+    viewer.shell = std::make_shared<const ShellView>(edited.view());
+    viewer.plot_points.push_back(plot_point_of(*viewer.shell));
+  };
+  show();
+  viewer.show.colour_by = ColourBy::displacement;
+  viewer.set_range(0, 10);
+  CHECK(viewer.preset_to_save().style.range.empty());  // nothing is pushed
+  const int joint = edited.joint(0, 0);
+  edited.act(Push{joint, edited.node(joint) - Eigen::Vector3d(0, 0, 4)});
+  show();
+  const preset::Preset saved = viewer.preset_to_save();
+  REQUIRE(saved.style.range.size() == 2);
+  CHECK(saved.style.range[0] == 0);
+  CHECK(saved.style.range[1] == Approx(2.5));
+  CHECK(saved.movie.colour_by == ColourBy::displacement);
+  viewer.compare_with_this();
+  CHECK(viewer.preset_to_save().style.range.empty());  // distances from the other shell
+  viewer.show.colour_by = ColourBy::energy;
+  viewer.set_range(0, 10);
+  CHECK(viewer.preset_to_save().style.range == std::vector<double>{0, 10});
+}
+
+TEST_CASE("the range of colours that a preset had is not saved with another quantity") {
+  ViewerState viewer({});
+  viewer.view = {800, 600};
+  ShellView shell = EditedShell().view();
+  shell.preset.style.range = {-1, 1};
+  viewer.shell = std::make_shared<const ShellView>(shell);
+  viewer.show.colour_by = shell.preset.movie.colour_by;
+  CHECK(viewer.preset_to_save().style.range == shell.preset.style.range);
+  viewer.show.colour_by = ColourBy::energy;
+  CHECK(viewer.preset_to_save().style.range.empty());
+}

@@ -51,3 +51,16 @@ TEST_CASE("colours of the window have the scale and the bar of movies") {
   show.colour_by = ColourBy::K_change;  // none at all
   CHECK(scale_of(*shell, show).high == 0.02);
 }
+
+TEST_CASE("arrows of loads have a scale only if their lengths are to scale") {
+  ShellView shell;
+  shell.layout = std::make_shared<const record::Layout>();
+  shell.frame.loads_N = Eigen::Vector3d(0, 0, -1).replicate(1, 30);
+  Show show;
+  show.largest_load_N = 1;
+  CHECK_FALSE(arrow_key_of(shell, show));
+  shell.frame.loads_N(2, 0) = -29;
+  CHECK(arrow_key_of(shell, show));
+  show.loads = false;
+  CHECK_FALSE(arrow_key_of(shell, show));
+}
