@@ -2,7 +2,7 @@
 uniform float widest;  // radius (mm) of a vertex whose fourth component is 1
 
 // Half the width (mm) of the ribbon that a vertex belongs to.
-float radius_of(float side) { return widest * abs(side); }
+float radius_of(float side) { return widest * side * side; }
 
 // The unit vector across the ribbon, at right angles to its axis and to the line of sight.
 vec3 across_of(vec3 tangent, vec3 sight) {

@@ -71,12 +71,12 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
                      text(rods), word);
 }
 
-/// The name of a run in a picture of several runs, marked text: its own title, or the name of its
-/// case if it has the common title.
+/// The name of a run in a picture of several runs, text without markup: its own title, or the name
+/// of its case if it has the common title.
 std::string title_among(const Run& run, const std::string& of_all) {
   return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
 }
-/// The title of a picture of one run, marked text: the common title and its own.
+/// The title of a picture of one run: the common title and its own.
 std::string title_alone(const Run& run, const std::string& of_all) {
   const std::string title = title_among(run, of_all);
   return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
@@ -130,7 +130,8 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title, cons
   const std::string above = runs.front()->preset.figure.title ? title : "";
   if (several) style.title = above;
   std::vector<render::NamedRun> shells;
-  for (const Run* run : runs) shells.push_back({&run->trajectory, title_among(*run, title)});
+  for (const Run* run : runs)
+    shells.push_back({&run->trajectory, render::plain(title_among(*run, title))});
   render::Plot force = render::force_plot(shells);
   force.title = render::plain(style.title);
   TRY_DO(save_panels(render::draw_pushes(shells, style, watch), with_suffix(stem, "_loads.png"),
@@ -206,8 +207,14 @@ Result<void> draw_net_pictures(const Runs& runs, const fs::path& stem, Watch& wa
   const record::Trajectory& first = runs.front()->trajectory;
   const bool alone = runs.size() == 1;
   std::vector<render::NamedRun> shells, shades;
+  const auto named = [](const Run& run) {
+    return run.label.empty() ? name_of(run.preset) : run.label;
+  };
   for (const Run* run : runs) {
-    const std::string name = run->label.empty() ? name_of(run->preset) : run->label;
+    std::string name = named(*run);
+    // cases of one net have their own names
+    if (std::ranges::count(runs, name, [&](const Run* one) { return named(*one); }) > 1)
+      name = render::plain(run->name);
     shells.push_back({&run->trajectory, name, scan_of(run->preset)});
     shades.push_back({&run->trajectory, caption_of(run->trajectory, name, runs.size() > 2)});
   }

@@ -250,7 +250,8 @@ Result<void> draw_turntable(const Run& run, int frames, render::Renderer& render
   style.view = preset::View::free;
   style.turn_deg = 360.0 * (frames - 1) / frames;
   TRY_DO(render::check_showable(last, style));
-  render::RunSummary survey = render::summarise_run(last);
+  const record::Frame first(run.trajectory.frames.front());
+  render::RunSummary survey = render::summarise_run(last, &first);
   survey.frames = frames;
   survey.turn_deg = style.turn_deg;
   const render::FrameSource source{&last.layout, frames, [&](int) -> Result<record::Frame> {

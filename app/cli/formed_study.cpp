@@ -117,7 +117,6 @@ Result<int> study_formed(const Options& options, const FormedCommand& command) {
 
 // `gridshell load PRESET`: the load factors that a formed shell carries, as tables and pictures.
 
-using record::BranchEvent;
 using study::LoadStudy;
 
 struct LoadOptions {
@@ -128,15 +127,9 @@ struct LoadOptions {
 /// "full snow: limit point at a factor of 3.42 ± 0.02 (linear 5.1 ± 0.1); a rod breaks at a factor
 /// of 1.2 ± 0.01; median of 20 imperfect shells: 0.84 of that factor (5 to 95 %: 0.71 to 0.93)"
 std::string sentence_of(const record::LoadRow& row) {
-  std::string text = row.load_case + ": ";
+  std::string text = row.load_case + ": " + record::loss_text(row);
   if (std::isfinite(row.critical_factor))
-    text += fmt::format("{} at a factor of {}",
-                        row.event == BranchEvent::turn ? "limit point" : "bifurcation",
-                        record::with_error(row.critical_factor, row.error, ""));
-  else
-    text += row.event == BranchEvent::locking
-                ? "the rods reach the strain limit before stability is lost"
-                : "stability is not lost on the path followed";
+    text += " at a factor of " + record::with_error(row.critical_factor, row.error, "");
   if (std::isfinite(row.linear_factor))
     text += " (linear " + record::with_error(row.linear_factor, row.linear_error, "") + ")";
   if (row.strength_factor == 0)
@@ -144,13 +137,8 @@ std::string sentence_of(const record::LoadRow& row) {
   else if (std::isfinite(row.strength_factor))
     text += "; a rod breaks at a factor of " +
             record::with_error(row.strength_factor, row.strength_error, "");
-  if (row.imperfections > 0)
-    text += fmt::format(
-        "; median of {} imperfect shells: {:.3g} of that factor (5 to 95 %: {:.3g} to {:.3g})",
-        row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
-  if (row.imperfections_failed > 0)
-    text += fmt::format(", of which {} have no equilibrium", row.imperfections_failed);
-  return text;
+  const std::string imperfect = record::knock_down_text(row);
+  return imperfect.empty() ? text : text + "; " + imperfect;
 }
 
 std::string json_text(const LoadStudy& found) {

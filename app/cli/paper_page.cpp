@@ -122,8 +122,8 @@ class PageMaker {
     }
     if (const auto& bar = stage.colour_bar())
       page.add_colour_bar({157, 3, 19, photo ? 48.0 : 25.0}, *bar);
-    const double bar_mm = records_.front()->preset.figure.scale_bar_mm;
-    page.add_scale_bar({photo ? 158.0 : 157.0, photo ? 106.0 : 28.0, 18, 8}, bar_mm, units);
+    page.add_scale_bar({photo ? 158.0 : 157.0, photo ? 106.0 : 28.0, 18, 8},
+                       stage.style().scale_bar_mm, units);
     return page;
   }
 

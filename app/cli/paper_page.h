@@ -100,13 +100,11 @@ struct Page {
     add(letter, "", box_mm, with(false));
     if (has_lines) panels.back().draw_lines = with(true);
   }
-  /// Adds the colour bar of pictures. It is left out where lines replace the pictures, since they
-  /// have no colours.
+  /// Adds the colour bar of pictures and lines.
   void add_colour_bar(const render::Box& box_mm, const render::ColourBar& bar) {
     add("", "", box_mm, [bar](render::Canvas& canvas, const render::Box& box) {
       render::draw_colour_bar(canvas, box, bar, page_font);
     });
-    panels.back().draw_lines = [](render::Canvas&, const render::Box&) {};
   }
   void add_plot(const std::string& letter, const render::Box& box_mm, render::Plot plot) {
     plot.font_size = page_font;

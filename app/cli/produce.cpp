@@ -175,13 +175,17 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
 std::string state_text(const record::Summary& at) {
   if (!at.solved) return "the net itself, no equilibrium";
   constexpr double worth_reporting = 0.01, least_mJ = 1e-6;
-  const double bend = at.energies[Term::bend], all = at.energies.total();
+  // without the potential of the loads, whose zero is arbitrary
+  const double bend = at.energies[Term::bend], all = at.energies.total() - at.energies[Term::load];
   return fmt::format(
       "bend energy {}{}, {}, residual {:.1e} N", record::with_error(bend, at.energy_error_mJ, "mJ"),
       std::abs(all - bend) > worth_reporting * std::max(std::abs(bend), least_mJ)
-          ? " of " + record::with_error(all, at.energy_error_mJ, "mJ") + " in all"
+          ? " of " + record::with_error(all, at.energy_error_mJ, "mJ") + " of elastic energy"
           : "",
-      at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N);
+      at.stable                ? "stable"
+      : at.negative_pivots < 0 ? "stability not known"
+                               : fmt::format("{} negative pivots", at.negative_pivots),
+      at.residual_N);
 }
 
 /// "[-1, -1], 14.1 mm from the middle of the footprint": the joint nearest to the requested point

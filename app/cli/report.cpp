@@ -70,10 +70,6 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   preset.movie.bins = false;
   preset.style.range.clear();
   constexpr double width_mm = 88, height_mm = 66, dpi = 300;
-  // a scale bar of at least a twentieth of the shell's length scale
-  const double length = run.trajectory.layout.length_scale_mm;
-  if (preset.figure.scale_bar_mm < 0.05 * length)
-    preset.figure.scale_bar_mm = render::nice_ceiling(0.2 * length);
   render::MovieStyle style =
       at_size(render::still_style(style_of(preset, Pictures::stills)), width_mm, height_mm, dpi);
   style.print = {width_mm, dpi};
@@ -81,7 +77,8 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   record::Trajectory last{run.trajectory.layout, {}};
   last.frames = {record::Frame(run.trajectory.frames.back())};
   TRY_DO(render::check_showable(last, style));
-  const render::Stage stage(last.layout, render::summarise_run(last), style, std::nullopt);
+  const record::Frame first(run.trajectory.frames.front());
+  const render::Stage stage(last.layout, render::summarise_run(last, &first), style);
   const record::Frame& frame = last.frames.front();
   TRY(picture, stage.draw_views(renderer, {frame, 0}));
   render::draw_over(*picture, [&](render::Canvas& canvas) {
@@ -236,7 +233,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
   };
   std::vector<TableRow> rows;
   for (const record::LoadRow& row : found->cases) {
-    const bool lost = std::isfinite(row.critical_factor);
+    const std::string imperfect = record::knock_down_text(row);
     const Eigen::Vector3d sum(row.load_x_N, row.load_y_N, row.load_z_N);
     // components that are round-off are written as 0
     const auto part = [&](double one) {
@@ -246,14 +243,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
         {{row.load_case, part(sum.x()), part(sum.y()), part(sum.z()),
           factor(row.critical_factor, row.error), factor(row.linear_factor, row.linear_error),
           factor(row.strength_factor, row.strength_error),
-          !lost ? "stability is not lost on the path followed"
-                : (row.event == record::BranchEvent::turn ? "limit point" : "bifurcation") +
-                      (row.imperfections > 0
-                           ? fmt::format(
-                                 "; median of {} imperfect shells: {:.3g} of it ({:.3g} to {:.3g})",
-                                 row.imperfections, row.knock_down_50, row.knock_down_5,
-                                 row.knock_down_95)
-                           : std::string())},
+          record::loss_text(row) + (imperfect.empty() ? "" : "; " + imperfect)},
          row.critical_factor < 1 || row.strength_factor < 1});
   }
   sheets.text(

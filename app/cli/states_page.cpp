@@ -165,7 +165,7 @@ Result<std::string> add_states(Page& page, const Runs& records, render::MovieSty
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
   if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});
   const double units = height * points_per_mm * stage.pixels_per_mm() / stage.style().height();
-  page.add_scale_bar({159, 31, 18, 8}, one.preset.figure.scale_bar_mm, units);
+  page.add_scale_bar({159, 31, 18, 8}, stage.style().scale_bar_mm, units);
   return drawn;
 }
 

@@ -77,6 +77,13 @@ Result<void> check_request(const preset::Presets& presets, const preset::SweepGr
         "{}: sweeps nothing: expected [sweep] over or seeds, for example --set "
         "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
         presets.base.name);
+  const std::size_t keys = axes_of(grid).size();
+  if (keys == 2 && (!grid.sweep().x.empty() || grid.sweep().departure > 0))
+    return invalid("{}: [sweep] x and departure have no effect on the map of two keys",
+                   presets.base.name);
+  if (keys > 2 && !grid.sweep().plot.empty())
+    return invalid("{}: [sweep] plot: got {} keys, expected 1 for a chart or 2 for a map",
+                   presets.base.name, keys);
   const auto names = drawable(presets, grid);
   auto requested = plots_of(grid);
   if (!grid.sweep().x.empty()) requested.push_back(grid.sweep().x);
@@ -137,7 +144,7 @@ Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
     if (name == classes)
       TRY_DO(draw_classes(work, table, print));
     else if (table.axes.size() == 2)
-      TRY_DO(render::write_sweep_map(stem, table, view));
+      TRY_DO(render::write_sweep_map(stem, table, view, print));
     else
       TRY_DO(render::write_plot(stem, render::sweep_plot(table, view), print, chart_height));
   }
@@ -182,13 +189,10 @@ std::string reported(const record::SweepTable& table) {
     done += result.outcome == record::PointOutcome::done;
     none += result.outcome == record::PointOutcome::no_equilibrium;
     refused += result.outcome == record::PointOutcome::refused;
-    const auto* stable = result.figure("stable");
-    unstable += stable && record::number_of(*stable) == 0;
-    const auto* limit = result.figure("limit");
-    if (const auto* word = limit ? std::get_if<std::string>(limit) : nullptr;
-        word && *word != "none") {
+    unstable += render::is_unstable(row);
+    if (const std::string limit = render::limit_of(row); !limit.empty()) {
       ++limited;
-      limits.insert(*word);
+      limits.insert(limit);
     }
   }
   auto text = fmt::format("{}: {} done", count_text(table.rows.size(), "point"), done);

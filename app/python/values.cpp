@@ -232,6 +232,11 @@ void add_state(py::module_& module) {
 
 Result<void> draw_on(const State& state, const render::MovieStyle& style,
                      const std::filesystem::path& path, const std::string& context) {
+  if (render::of_change(style.colour_by))
+    return invalid(
+        "[movie] colour_by: got \"{}\", a change since the first frame of a run, expected a "
+        "quantity of one state",
+        word_of(style.colour_by));
   // an OpenGL context is used by the thread that made it, so each call makes its own
   TRY(artist, app::PictureMaker::create(context, state.preset->style.font));
   record::Layout layout = *state.layout;

@@ -29,11 +29,27 @@ std::string full_label(const std::string& table, const std::string& key, int ite
 
 std::string unit_of(const std::string& key) {
   // longer endings first: "_rad_per_mm" ends with "_per_mm", too
-  static constexpr std::pair<const char*, const char*> units[] = {
-      {"_rad_per_mm", "rad/mm"}, {"_N_per_mm", "N/mm"}, {"_per_mm", "1/mm"}, {"_per_s", "1/s"},
-      {"_kg_m3", "kg/m^3"},      {"_m_s2", "m/s^2"},    {"_N_m2", "N/m^2"},  {"_N_m", "N/m"},
-      {"_Nmm", "N mm/rad"},      {"_GPa", "GPa"},       {"_MPa", "MPa"},     {"_GB", "GB"},
-      {"_deg", "deg"},           {"_mm", "mm"},         {"_N", "N"},         {"_s", "s"}};
+  static constexpr std::pair<const char*, const char*> units[] = {{"_rad_per_mm", "rad/mm"},
+                                                                  {"_N_per_mm", "N/mm"},
+                                                                  {"_per_mm", "1/mm"},
+                                                                  {"_per_s", "1/s"},
+                                                                  {"_kg_m3", "kg/m^3"},
+                                                                  {"_m_s2", "m/s^2"},
+                                                                  {"_N_m2", "N/m^2"},
+                                                                  {"_N_m", "N/m"},
+                                                                  {"_Nmm2", "N mm²"},
+                                                                  {"_Nmm", "N mm/rad"},
+                                                                  {"_GPa", "GPa"},
+                                                                  {"_MPa", "MPa"},
+                                                                  {"_GB", "GB"},
+                                                                  {"_deg", "deg"},
+                                                                  {"_mm3", "mm^3"},
+                                                                  {"_mm", "mm"},
+                                                                  {"_mJ", "mJ"},
+                                                                  {"_g_per_m", "g/m"},
+                                                                  {"_g", "g"},
+                                                                  {"_N", "N"},
+                                                                  {"_s", "s"}};
   for (const auto& [ending, unit] : units)
     if (key.ends_with(ending)) return unit;
   return "";

@@ -35,6 +35,15 @@ void add_movie(FieldList<Movie> list) {
                [](const Preset& preset, const M& of) {
                  return of.colour_by == ColourBy::deviation && !preset.on_net();
                })
+      .refused({"[indentation] depth", "[indentation] depth_mm"},
+               "\"displacement\" is over the depth of a push, expected another value, "
+               "[indentation] depth above 0 or a [[step]] that pushes",
+               [](const Preset& preset, const M& of) {
+                 return of.colour_by == ColourBy::displacement && !preset.indentation.requested() &&
+                        std::ranges::none_of(preset.step, [](const Step& step) {
+                          return step.kind == StepKind::push;
+                        });
+               })
       .needs_equilibrium("a net's rods bear no forces",
                          [](const M& of) { return needs_equilibrium(of.colour_by); })
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
@@ -57,7 +66,7 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::inset>("whether to draw the small top view");
   list.add<&M::bins>(
       "whether to plot K of the cells in bins along x next to the shell, in wide pictures");
-  list.add<&M::captions>("whether to write radius, height and frame");
+  list.add<&M::captions>("whether to write radius, depth and height");
   list.add<&M::beside>(
       "whether a movie shows the cases of a preset next to each other; else each has its own "
       "movie");
@@ -75,13 +84,13 @@ void add_movie(FieldList<Movie> list) {
       .unused({"bins"}, "no bins are drawn: [movie] bins is false",
               [](const M& of) { return !of.bins; });
   rises(list, &M::bins_range);
-  list.add<&M::views>("more views in each frame, next to each other, degrees")
+  list.add<&M::views>("more views in each frame of a movie, next to each other, degrees")
       .points({"azimuth", "elevation"})
       .refused({}, "expected elevations between -90 and 90", [](const M& of) {
         return std::ranges::any_of(of.views, [](const auto& row) { return std::abs(row[1]) > 90; });
       });
   list.add<&M::seconds>(
-          at_least(0),
+          between(0, 3600),
           "duration of the movie without title and final still; 0: frames / fps, of few "
           "frames a quarter of a second each, up to 4 s")
       .unit("s");
@@ -141,6 +150,8 @@ void add_style(FieldList<Style> list) {
 /// The error of [figure] radii_mm, which must fall from R_o to R_a; empty: there is none.
 std::string radii_error(const Preset& preset) {
   if (preset.figure.radii_mm.empty()) return "";
+  if (preset.indentation.requested() || !preset.step.empty())
+    return "stills of a push or of steps show its states, expected []";
   if (preset.footprint.kind != FootprintKind::circle)
     return "only a circle's boundary has a radius on all of its path, expected [] for any other "
            "[footprint] kind";
@@ -171,7 +182,8 @@ void add_figure(FieldList<Figure> list) {
           above(0),
           "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone")
       .refused({"[footprint] kind", "[footprint] radius_mm", "[footprint] longest_leg",
-                "[actuation] radius_mm", "[actuation] ratio"},
+                "[actuation] radius_mm", "[actuation] ratio", "[indentation] depth",
+                "[indentation] depth_mm"},
                radii_error);
   list.add<&Figure::scale_bar_mm>(at_least(0),
                                   "length of the scale bar; a round length instead if it would be "
@@ -202,7 +214,7 @@ void add_page(FieldList<Page> list) {
   list.add<&Page::kind>(
       "figure of the paper that `figure` lays out on one page; \"literature\": all cases in one "
       "style");
-  list.add<&Page::photo>("a PNG instead of the photograph; empty: an empty frame");
+  list.add<&Page::photo>("a PNG of the photograph; empty: the page has none");
   list.add<&Page::drawn>(
       "whether the page is also made with rendered pictures of the shells, NAME_page_drawn");
   list.add<&Page::sweep>(

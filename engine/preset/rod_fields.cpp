@@ -8,21 +8,22 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
   rods.add<&Rod::material>(
       "gives young_GPa, shear_GPa, density_kg_m3 and strength_MPa where they are not given; "
       "values and sources under Materials in presets/README.md");
+  const auto touching = [table](double Rod::*size) {
+    return [table, size](const Preset& preset) -> std::string {
+      const Rod& rod = table == "rod" ? preset.rod : preset.rod_v;
+      const double spacing = preset.footprint.spacing_mm;
+      const bool is_used = table == "rod" || preset.rod_v.differs;
+      if (!is_used || preset.footprint.kind == FootprintKind::network || rod.*size < spacing)
+        return "";
+      return fmt::format(
+          "neighbouring rods would touch, expected less than [footprint] spacing_mm = {}", spacing);
+    };
+  };
   rods.add<&Rod::diameter_mm>(above(0), "diameter of round rods, of tubes the outer one")
       .unused({"width_mm", "thickness_mm"},
               fmt::format("[{}] width_mm and thickness_mm make the rods rectangular", table),
-              &Rod::rectangular);
-  if (table == "rod")
-    rods.refused({"[footprint] spacing_mm"}, [](const Preset& preset) {
-      const double spacing = preset.footprint.spacing_mm;
-      const bool grid = preset.footprint.kind != FootprintKind::network;
-      return grid && preset.rod.diameter_mm >= spacing
-                 ? fmt::format(
-                       "neighbouring rods would touch, expected less than [footprint] "
-                       "spacing_mm = {}",
-                       spacing)
-                 : "";
-    });
+              &Rod::rectangular)
+      .refused({"[footprint] spacing_mm"}, touching(&Rod::diameter_mm));
   rods.add<&Rod::young_GPa>(above(0), "Young's modulus E").label("Young's modulus");
   rods.add<&Rod::shear_GPa>(
           at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted")
@@ -33,7 +34,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                                "strength: largest stress that a fibre bears; utilisation is the "
                                "stress over it; 0: not given");
   rods.add<&Rod::yield_strain>(
-          at_least(0), "largest strain that a fibre bears, instead of strength_MPa; 0: not given")
+          between(0, 1), "largest strain that a fibre bears, instead of strength_MPa; 0: not given")
       .refused({"strength_MPa"},
                "the strength is in strength_MPa already, expected 0 for one of both",
                [](const Rod& rod) { return rod.yield_strain > 0 && rod.strength_MPa > 0; });
@@ -44,6 +45,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
   rods.add<&Rod::width_mm>(
           at_least(0),
           "width of a rectangular section, in the plane of the grid; 0: the rods are round")
+      .refused({"[footprint] spacing_mm"}, touching(&Rod::width_mm))
       .needs_twist("rods that are not equal in all directions twist as they bend", two_axes)
       .refused({}, fmt::format(fmt::runtime(half), table, "thickness_mm"),
                [](const Rod& rod) { return rod.width_mm > 0 && rod.thickness_mm == 0; });

@@ -201,8 +201,11 @@ Box Canvas::text(const std::string& any, Point anchor, const TextStyle& style) {
   const Point at = corner(layout.get(), to_box(logical_rectangle), style);
 
   const double angle = -style.angle_deg * std::numbers::pi / 180;
-  if (keeps_text_)
-    text_elements_ += text_element(layout.get(), parse_marked(marked), anchor, at, style, scale_);
+  if (keeps_text_) {
+    TextStyle shown = style;
+    if (on_dark()) shown.colour = text_on_dark(style.colour);
+    text_elements_ += text_element(layout.get(), parse_marked(marked), anchor, at, shown, scale_);
+  }
   cairo_save(cairo_);
   cairo_translate(cairo_, anchor.x, anchor.y);
   cairo_rotate(cairo_, angle);

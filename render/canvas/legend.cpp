@@ -146,14 +146,16 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
   }
 }
 
-bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
-                    double font_size) {
+std::string scale_bar_text(double length_mm) {
   const bool metres = length_mm >= 1000;
   const double length = metres ? 1e-3 * length_mm : length_mm;
-  const std::string label =
-      (length == std::round(length) ? fixed(length, 0) : scientific(length, 2)) +
-      (metres ? " m" : " mm");
-  return draw_length(canvas, box, length_mm * units_per_mm, label, font_size,
+  return (length == std::round(length) ? fixed(length, 0) : scientific(length, 2)) +
+         (metres ? " m" : " mm");
+}
+
+bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
+                    double font_size) {
+  return draw_length(canvas, box, length_mm * units_per_mm, scale_bar_text(length_mm), font_size,
                      [&](const Box& bar) { canvas.rectangle(bar, ink); });
 }
 

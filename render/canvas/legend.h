@@ -28,6 +28,8 @@ double colour_bar_width(const ColourBar& bar, double font_size);
 /// Draws a vertical colour bar with its labels into `box`.
 void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size);
 
+/// The length of a scale bar: "20 mm", from 1000 mm "1.5 m".
+std::string scale_bar_text(double length_mm);
 /// Draws a bar of `length_mm` with its length above, centred in `box`. Returns false, and draws
 /// nothing, if it does not fit.
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,

@@ -51,8 +51,9 @@ void Mesh::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 namespace {
 
-std::int16_t share_of_widest(float radius) {
-  return std::int16_t(std::clamp(std::round(32767 * radius / widest_radius_mm), 1.f, 32767.f));
+std::int16_t stored_radius(float radius) {
+  const float root = std::sqrt(std::max(radius, 0.f) / widest_radius_mm);
+  return std::int16_t(std::clamp(std::round(32767 * root), 1.f, 32767.f));
 }
 
 constexpr int most_steps = 4;  // pieces along a cell's side
@@ -212,7 +213,7 @@ std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon) {
   const auto t = tangents(ribbon.points, ribbon.closed);
   for (std::size_t k = 0; k < ribbon.points.size(); ++k) {
     const PackedColour colour = pack(ribbon.colours[k]);
-    const std::int16_t side = share_of_widest(ribbon.radii[std::min(k, ribbon.radii.size() - 1)]);
+    const std::int16_t side = stored_radius(ribbon.radii[std::min(k, ribbon.radii.size() - 1)]);
     for (const std::int16_t signed_side : {side, std::int16_t(-side)}) {
       mesh.add(ribbon.points[k], t[k], colour);
       mesh.vertices.back().normal[3] = signed_side;
@@ -260,7 +261,7 @@ std::vector<std::uint32_t> add_bead(Mesh& mesh, const Eigen::Vector3f& centre,
                                     const Eigen::Vector3f& axis, float radius, BeadShape shape,
                                     const Eigen::Vector4f& colour) {
   const auto first = std::uint32_t(mesh.vertices.size());
-  const std::int16_t side = share_of_widest(radius);
+  const std::int16_t side = stored_radius(radius);
   PackedColour packed = pack(colour);
   for (const int up : {0, 1})
     for (const std::int16_t right : {std::int16_t(-side), side}) {

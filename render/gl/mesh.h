@@ -50,12 +50,18 @@ struct Ribbon {
   bool closed = false;                       ///< the last point joins the first
 };
 
-/// The largest radius that vertices can have; they store theirs as a fraction of it.
-inline constexpr float widest_radius_mm = 64;
+/// The largest radius that vertices can have. They store the root of theirs over it, so that thin
+/// wires and steel tubes have radii right to a hundredth.
+inline constexpr float widest_radius_mm = 4096;
+/// The radius that a vertex of a ribbon or bead stores, mm.
+inline float radius_mm(const Vertex& vertex) {
+  const float root = float(vertex.normal[3]) / 32767;
+  return widest_radius_mm * root * root;
+}
 
 /// Adds two vertices per point, in order, and no triangles: position on the axis, unit tangent, and
-/// in the normal's fourth component the radius over widest_radius_mm with the side's sign. Returns
-/// the index of the first vertex.
+/// in the normal's fourth component the root of the radius over widest_radius_mm with the side's
+/// sign. Returns the index of the first vertex.
 std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon);
 
 /// The last point, at most `last`, to which a straight piece from point `from` may replace the

@@ -336,10 +336,10 @@ void enclose(Scene& scene) {
   for (const Mesh* mesh : {&scene.sheets, &scene.ribbons, &scene.beads})
     for (const Vertex& v : mesh->vertices) {
       box.extend(v.position);
-      widest = std::max(widest, std::abs(float(v.normal[3])));
+      widest = std::max(widest, radius_mm(v));
     }
   if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
-  const double room = 1e-3 + widest / 32767 * widest_radius_mm;
+  const double room = 1e-3 + double(widest);
   scene.low = box.min().cast<double>() - Eigen::Vector3d::Constant(room);
   scene.high = box.max().cast<double>() + Eigen::Vector3d::Constant(room);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 namespace gridshell::render {
@@ -193,7 +194,7 @@ void add_path(const std::vector<LoadPoint>& points, const std::string& name, Col
     const bool now_stable = point.negative_pivots == 0;
     if (!before || now_stable != stable) {
       plot.add(std::move(piece));
-      piece = line_series(named ? "" : name, colour, 1.2);
+      piece = line_series(named ? "" : plain(name), colour, 1.2);
       if (!now_stable) piece.dash = {3.2, 2.2};
       if (before) piece.add(before->way_mm, before->factor);
       named = true;
@@ -283,26 +284,31 @@ Result<void> write_branches(const std::filesystem::path& stem,
 Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::LoadRow>& cases,
                const std::string& title) {
   Plot plot;
-  plot.title = title;
+  plot.title = plain(title);
   plot.x.label = "largest joint displacement (mm)";
   plot.y.label = "load factor";
-  // if the critical factors differ much, the factors of each case are divided by its own
+  // if the factors differ much, those of each case are divided by its critical one, or by the
+  // largest on its path
   constexpr double far_apart = 4;
-  std::map<std::string, double> critical;
-  double least = INFINITY, most = 0;
+  std::map<std::string, double> scale;
+  for (const LoadPoint& point : points)
+    scale[point.load_case] = std::max(scale[point.load_case], point.factor);
+  bool all_critical = true;
   for (const record::LoadRow& row : cases)
-    if (row.critical_factor > 0) {
-      critical[row.load_case] = row.critical_factor;
-      least = std::min(least, row.critical_factor), most = std::max(most, row.critical_factor);
-    }
+    if (row.critical_factor > 0)
+      scale[row.load_case] = row.critical_factor;
+    else
+      all_critical = false;
+  const auto [least, most] = std::ranges::minmax(std::views::values(scale));
   std::vector<LoadPoint> shown = points;
   std::vector<record::LoadRow> rows = cases;
-  if (most > far_apart * least && critical.size() == cases.size()) {
-    plot.y.label = "load factor over critical factor";
-    for (LoadPoint& point : shown) point.factor /= critical.at(point.load_case);
+  if (least > 0 && most > far_apart * least) {
+    plot.y.label = std::string("load factor over critical factor") +
+                   (all_critical ? "" : ", or over the largest on its path");
+    for (LoadPoint& point : shown) point.factor /= scale.at(point.load_case);
     for (record::LoadRow& row : rows) {
-      row.strength_factor /= row.critical_factor;
-      row.strength_error /= row.critical_factor;
+      row.strength_factor /= scale.at(row.load_case);
+      row.strength_error /= scale.at(row.load_case);
     }
   } else {
     plot.references.push_back({.at = 1, .label = ""});

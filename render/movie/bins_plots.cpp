@@ -47,7 +47,9 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
             .low = !range.empty() ? range[0] : low - (low < 0 ? margin : 0),
             .high = !range.empty() ? range[1] : high + margin};
   Series before = bins_of(run.first), now = bins_of(frame);
-  before.name = "unloaded, mean ± s.d. (left)";
+  const bool pushed = std::isfinite(frame.depth_mm);
+  const std::string first = pushed ? "unloaded" : "first state", last = pushed ? "loaded" : "now";
+  before.name = first + ", mean ± s.d. (left)";
   before.kind = SeriesKind::bars;
   before.colour = reference;
   // both error bars are visible, side by side
@@ -57,7 +59,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
     now.x[k] += 0.14 * before.bar_width;
   }
   spread.y_error = std::exchange(before.y_error, {});
-  now.name = "loaded, mean ± s.d. (right)";
+  now.name = last + ", mean ± s.d. (right)";
   now.colour = now_ink;
   now.line_width = 0;
   now.marker = Marker::circle;
@@ -67,8 +69,8 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   // empty series, for the rows of the legend of the lines across the plot
   plot.series = {
       before, spread, now,
-      line_series("mean of all cells, unloaded", dashed.colour, dashed.width, dashed.dash),
-      line_series("mean of all cells, loaded", solid.colour, solid.width)};
+      line_series("mean of all cells, " + first, dashed.colour, dashed.width, dashed.dash),
+      line_series("mean of all cells, " + last, solid.colour, solid.width)};
   plot.references = {{true, run.first.total_K / double(cells), "", dashed},
                      {true, frame.total_K / double(cells), "", solid}};
   plot.title = total_K_caption(run.first.total_K, frame.total_K);

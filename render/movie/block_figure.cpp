@@ -215,7 +215,7 @@ Result<PanelFigure> draw_blocks(const std::vector<NamedRun>& runs, const MovieSt
   PanelFigure figure = empty_figure(style, 1);
   TRY_DO(add_panel(figure, stage, std::move(drawing), {}, nullptr, watch));
   figure.keys = kinds.keys();
-  figure.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, blocks.layout.length_scale_mm);
+  figure.scale_bar_mm = stage.style().scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
   return figure;
 }

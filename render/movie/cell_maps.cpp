@@ -199,7 +199,7 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
 struct SweepCell {
   double sum = 0;
   int found = 0, failed = 0;  ///< runs with the figure, runs without a state
-  bool limited = false;
+  bool limited = false, unstable = false;
 
   double mean() const { return found > 0 ? sum / found : std::nan(""); }
   bool lost() const { return failed > 0 && found == 0; }
@@ -228,6 +228,7 @@ class SweepMap {
         const double value = number_of(row, view.figure);
         cell.failed += row.result.outcome != record::PointOutcome::done;
         cell.limited = cell.limited || !limit_of(row).empty();
+        cell.unstable = cell.unstable || is_unstable(row);
         if (!std::isfinite(value)) continue;
         cell.sum += value;
         ++cell.found;
@@ -236,14 +237,16 @@ class SweepMap {
         if (cell.found > 0) values.push_back(cell.mean());
         any_limited_ = any_limited_ || cell.limited;
         any_lost_ = any_lost_ || cell.lost();
+        any_unstable_ = any_unstable_ || cell.unstable;
       }
       panels_.push_back(std::move(made));
     }
     bar_ = {label_, scale_for(values)};
+    empty_ = values.empty();
   }
 
   double height() const {
-    const double legend = any_limited_ || any_lost_ ? 20 : 0;
+    const double legend = any_limited_ || any_lost_ || any_unstable_ || empty_ ? 20 : 0;
     return 2 * margin + title_room + case_room + panel + foot_room + legend;
   }
   double width() const {
@@ -263,9 +266,15 @@ class SweepMap {
     canvas.text(
         y_.label, {margin + size / 2, top + panel / 2},
         {.size = size, .align_x = AlignX::centre, .align_y = AlignY::middle, .angle_deg = 90});
+    const double bottom = top + panel + foot_room + 4 + size / 2;
+    if (empty_) {
+      canvas.text("no run has " + label_, {margin + label_room, bottom},
+                  {.size = size, .align_y = AlignY::middle});
+      return;
+    }
     draw_colour_bar(canvas, {x - gap + bar_gap, top - case_room, 60, panel + case_room}, bar_,
                     size);
-    draw_legend(canvas, {margin + label_room, top + panel + foot_room + 4 + size / 2});
+    draw_legend(canvas, {margin + label_room, bottom});
   }
 
  private:
@@ -304,6 +313,8 @@ class SweepMap {
     const double r = std::min(4.0, 0.3 * std::min(box.width, box.height));
     if (cell.lost())
       canvas.marker(Marker::cross, box.middle(), 2 * r, ink, {ink, 0.8});
+    else if (cell.unstable)
+      canvas.marker(Marker::diamond, box.middle(), 1.6 * r, white, {ink, 0.6});
     else if (cell.limited)
       canvas.circle(box.middle(), 0.6 * r, white, {ink, 0.6});
   }
@@ -317,6 +328,10 @@ class SweepMap {
       canvas.circle(at, 2.4, white, {ink, 0.6});
       entry("ended early");
     }
+    if (any_unstable_) {
+      canvas.marker(Marker::diamond, at, 5, white, {ink, 0.6});
+      entry("unstable");
+    }
     if (any_lost_) {
       canvas.marker(Marker::cross, at, 6, ink, {ink, 0.8});
       entry("no state found");
@@ -327,7 +342,7 @@ class SweepMap {
   std::string label_, title_;
   std::vector<CasePanel> panels_;
   ColourBar bar_;
-  bool any_limited_ = false, any_lost_ = false;
+  bool any_limited_ = false, any_lost_ = false, any_unstable_ = false, empty_ = false;
 };
 
 }  // namespace
@@ -388,10 +403,11 @@ Result<void> write_outcome_maps(const std::filesystem::path& stem,
 }
 
 Result<void> write_sweep_map(const std::filesystem::path& stem, const SweepTable& table,
-                             const SweepView& view) {
+                             const SweepView& view, const Print& print) {
   const SweepMap map(table, view);
-  return write_figure(stem, map.width(), map.height(), view.title,
-                      [&](Canvas& canvas) { map.draw(canvas); });
+  return write_figure(
+      stem, map.width(), map.height(), view.title, [&](Canvas& canvas) { map.draw(canvas); },
+      print);
 }
 
 }  // namespace gridshell::render

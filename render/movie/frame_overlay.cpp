@@ -288,12 +288,16 @@ std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N
 
 std::string load_caption(const record::Frame& frame) {
   if (frame.loads_N.cols() == 0) return "";
+  constexpr double alike = 0.99;  // of the sum of their magnitudes: of loads in one direction
   const auto sum = [](const Eigen::Matrix3Xd& of) { return force_text(of.rowwise().sum().norm()); };
-  std::string loads = "loads " + sum(frame.loads_N);
+  const auto magnitudes = [](const Eigen::Matrix3Xd& of) { return of.colwise().norm().sum(); };
+  const double all = magnitudes(frame.loads_N);
+  const bool in_one_direction = frame.loads_N.rowwise().sum().norm() >= alike * all;
+  std::string loads =
+      (in_one_direction ? "loads " : "loads with a resultant of ") + sum(frame.loads_N);
   if (loads_all_alike(frame)) return loads + ", distributed (arrows not to scale)";
   if (const Eigen::Matrix3Xd small = small_loads(frame); small.cols() > 0)
-    loads += fmt::format(" ({:.0f} % distributed)",
-                         100 * small.rowwise().sum().norm() / frame.loads_N.rowwise().sum().norm());
+    loads += fmt::format(" ({:.0f} % distributed)", 100 * magnitudes(small) / all);
   return frame.reactions_N.cols() == 0 ? loads : loads + ", reactions " + sum(frame.reactions_N);
 }
 

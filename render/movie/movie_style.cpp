@@ -179,6 +179,7 @@ MovieStyle figure_style(const preset::Preset& preset) {
   style.quality = figure.quality;
   style.scale_bar_mm = figure.scale_bar_mm;
   style.vector = figure.vector;
+  style.views.clear();  // panels of figures have one view each, at one scale
   if (!figure.title) style.title.clear();
   style.print.background = style.look.background;
   if (figure.width_mm <= 0) return style;

@@ -35,11 +35,11 @@ void add_half_span(const record::Layout& layout, Drawing& drawing) {
 using DrawingEdit = std::function<void(const NamedRun&, Drawing&)>;
 
 /// Sets the scale of all panels to that of the largest shell, and its scale bar.
-void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, PanelFigure& figure) {
+void show_scale_of(const std::vector<Stage>& stages, PanelFigure& figure) {
   figure.pixels_per_mm = stages.front().pixels_per_mm();
   for (const Stage& stage : stages)
     figure.pixels_per_mm = std::min(figure.pixels_per_mm, stage.pixels_per_mm());
-  figure.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, stages.front().run().length_scale_mm);
+  figure.scale_bar_mm = stages.front().style().scale_bar_mm;
 }
 
 /// A figure with one panel per run, whose drawing is changed by `edit`.
@@ -54,7 +54,7 @@ Result<PanelFigure> panels_of(const std::vector<NamedRun>& runs, const MovieStyl
   }
   std::vector<Stage> stages;
   for (const record::Trajectory& state : states) stages.emplace_back(state, style);
-  show_scale_of(stages, style, figure);
+  show_scale_of(stages, figure);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     Drawing drawing = stages[k].drawing(states[k].frames.front());
@@ -233,7 +233,7 @@ Result<PanelFigure> draw_pushes(const std::vector<NamedRun>& runs, const MovieSt
     TRY_DO(check_showable(*runs[k].run, style));
     stages.emplace_back(runs[k].run->layout, std::move(surveys[k]), style, bar);
   }
-  show_scale_of(stages, style, figure);
+  show_scale_of(stages, figure);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const record::Frame& last = runs[k].run->frames.back();
     Drawing drawing = stages[k].drawing(last);

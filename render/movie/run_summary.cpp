@@ -219,14 +219,17 @@ long node_count_of(const record::Layout& layout) {
   return long(largest) + 1;
 }
 
-RunSummary::RunSummary(const record::Layout& layout)
+RunSummary::RunSummary(const record::Layout& layout, const record::Frame* origin)
     : lowest_z_mm(std::min(lowest(layout.original_boundary), lowest(layout.actuated_boundary))),
       support_z_mm(lowest_z_mm),
       layout_(&layout),
-      rod_points_(thinned(rod_points(layout), 600)) {}
+      has_origin_(origin),
+      rod_points_(thinned(rod_points(layout), 600)) {
+  if (origin) first = *origin;
+}
 
 void RunSummary::take(const record::Frame& frame) {
-  if (frames == 0) first = frame;
+  if (frames == 0 && !has_origin_) first = frame;
   if (frame.loads_N.cols() > 0)
     largest_load_N = std::max(largest_load_N, frame.loads_N.colwise().norm().maxCoeff());
   arrows_to_scale |= frame.loads_N.cols() > 0 && !loads_all_alike(frame);
@@ -320,8 +323,8 @@ Eigen::Matrix3Xd RunSummary::bounds() const {
   return all;
 }
 
-RunSummary summarise_run(const record::Trajectory& run) {
-  RunSummary survey(run.layout);
+RunSummary summarise_run(const record::Trajectory& run, const record::Frame* origin) {
+  RunSummary survey(run.layout, origin);
   for (const record::Frame& frame : run.frames) survey.take(frame);
   return survey;
 }

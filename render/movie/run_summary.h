@@ -115,8 +115,9 @@ struct ProgressAxis {
 /// first one and some points of others are stored.
 class RunSummary {
  public:
-  /// The layout must outlive the summary.
-  explicit RunSummary(const record::Layout& layout);
+  /// The layout must outlive the summary. `origin`: the frame with which the frames are compared,
+  /// if it is not the first of them.
+  explicit RunSummary(const record::Layout& layout, const record::Frame* origin = nullptr);
 
   /// Takes the next frame of the run.
   void take(const record::Frame& frame);
@@ -154,6 +155,7 @@ class RunSummary {
   void sample_points(const record::Frame& frame);
 
   const record::Layout* layout_;
+  bool has_origin_ = false;
   std::array<ColouredRange, words_of<ColourBy>().size()> spreads_;
   std::vector<double> depths_mm_, radii_mm_;      ///< of every frame
   std::vector<RodSample> rod_points_;             ///< at the same positions of rods on every mesh
@@ -163,11 +165,16 @@ class RunSummary {
   Eigen::Matrix3Xd last_;                         ///< points of the last frame
 };
 
-/// The summary of all frames of a run.
-RunSummary summarise_run(const record::Trajectory& run);
+/// The summary of all frames of a run, compared with `origin` or else with the first of them.
+RunSummary summarise_run(const record::Trajectory& run, const record::Frame* origin = nullptr);
 
 /// Whether a quantity has values of cells; otherwise it has values of nodes, for the rods.
 bool of_cells(ColourBy by);
+
+/// Whether a quantity compares a frame with the first one of its run.
+inline bool of_change(ColourBy by) {
+  return by == ColourBy::K_change || by == ColourBy::displacement;
+}
 
 /// Whether a run may have no values of a quantity: forces and energies along the rods in a run of
 /// an older version or of the net model, deviations in a run without a net.

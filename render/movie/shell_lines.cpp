@@ -127,6 +127,29 @@ class Lines {
     if (!drawing.laths_mm.empty()) normals_ = shell_normals(drawing);
   }
 
+  /// Fills coloured cells, the farthest first.
+  void fill_cells() {
+    const std::vector<record::Cell>& cells = drawing_.layout->cells;
+    if (drawing_.cell_colours.size() != cells.size()) return;
+    std::vector<std::pair<double, std::size_t>> order;  // by the depth of the middle
+    std::vector<std::vector<Point>> corners(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      double depth = 0;
+      for (const int joint : cells[c].joints) {
+        const Seen corner = eye_(drawing_.nodes.col(drawing_.layout->joints[joint].node));
+        corners[c].push_back(corner.at);
+        depth += corner.depth;
+      }
+      order.emplace_back(-depth, c);
+    }
+    std::ranges::sort(order);
+    for (const auto& [depth, c] : order) {
+      const Colour& fill = drawing_.cell_colours[c];
+      // an outline of the same colour leaves no seams
+      if (fill.a > 0) canvas_.polygon(corners[c], fill, {fill, 0.3});
+    }
+  }
+
   /// Draws the parts that are hidden, or those that are visible.
   void draw(bool hidden) {
     const double fade = hidden ? std::max(0.55, drawing_.far_fade) : 0;
@@ -261,7 +284,9 @@ class Lines {
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing,
                       const Camera& camera) {
   Lines lines(canvas, box, drawing, camera);
-  for (const bool hidden : {true, false}) lines.draw(hidden);
+  lines.draw(true);
+  lines.fill_cells();
+  lines.draw(false);
 }
 
 void mark_arrows_along_view(Image& picture, const Drawing& drawing, const Camera& camera) {

@@ -14,9 +14,11 @@ namespace {
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
     original_ink{0.66f, 0.67f, 0.7f, 1};
 
-// the style with a camera from the side, so that a pushed joint moves in the picture's plane; of
-// the two sides the one nearer to the style's azimuth
-MovieStyle seen_across_push(MovieStyle style, const record::Layout& layout) {
+// the style with a scale bar that fits the shell and, if it is to show a push, a camera from the
+// side, so that a pushed joint moves in the picture's plane; of the two sides the one nearer to the
+// style's azimuth
+MovieStyle fitted_to(const record::Layout& layout, MovieStyle style) {
+  style.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, layout.length_scale_mm);
   if (style.view != preset::View::push) return style;
   constexpr double elevation_deg = 18, least_slope = 0.05;
   style.elevation_deg = elevation_deg;
@@ -172,7 +174,7 @@ Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& 
              const std::optional<ColourBar>& shared)
     : run_(layout),
       survey_(std::move(survey)),
-      style_(seen_across_push(style, layout)),
+      style_(fitted_to(layout, style)),
       progress_(survey_.progress()),
       bar_(shared ? shared : colour_bar_of({&survey_}, style_)),
       layout_(lay_out_frame(style_, bar_ && style_.legends ? &*bar_ : nullptr,

@@ -104,7 +104,7 @@ class Stage {
 
 /// Draws rods, rings, ghosts, joints, marks and arrows of `drawing` into a box of the canvas as the
 /// camera sees them. Hidden ones are drawn first, faded by the larger of 0.55 and the drawing's
-/// far_fade; at a far_fade of 1 they are left out.
+/// far_fade; at a far_fade of 1 they are left out. Coloured cells are filled over them.
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera);
 
 /// Draws ⊗ or ⊙ over a picture of the drawing where an arrow is along the view.

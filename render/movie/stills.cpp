@@ -133,17 +133,9 @@ Result<std::vector<std::filesystem::path>> write_stills(
   const MovieStyle style = still_style(movie_style);
   TRY_DO(check_showable(run, style));
   if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
-  RunSummary survey = summarise_run(run);
-  if (origin) {
-    survey.first = *origin;
-    survey.largest_move_mm = 0;
-    for (const record::Frame& frame : run.frames)
-      survey.largest_move_mm = std::max(survey.largest_move_mm,
-                                        (frame.nodes - origin->nodes).colwise().norm().maxCoeff());
-  }
-  const Stage stage(run.layout, std::move(survey), style, bar);
+  const Stage stage(run.layout, summarise_run(run, origin), style, bar);
   PanelFigure figure = empty_figure(style, columns_of(style, stage.frames()));
-  figure.scale_bar_mm = fitted_scale_bar(style.scale_bar_mm, run.layout.length_scale_mm);
+  figure.scale_bar_mm = stage.style().scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
   figure.colour_bar = stage.colour_bar();
   figure.arrow = stage.arrow_key();

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/core/text.h"
+#include "engine/preset/field_table.h"
 #include "engine/record/frame_values.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/text.h"
@@ -55,10 +56,8 @@ Curve curve_of(const SweepTable& table, const SweepScale& scale, const SweepView
     const double key = scale.numbers[index];
     const double x = view.x.empty() ? key : number_of(row, view.x);
     const double y = number_of(row, view.figure);
-    const auto* stable = row.result.figure("stable");
-    const bool unstable = stable && record::number_of(*stable) == 0;
     if (std::isfinite(x) && std::isfinite(y))
-      curve.spots.push_back({x, y, index, limit_of(row), !unstable});
+      curve.spots.push_back({x, y, index, limit_of(row), !is_unstable(row)});
     else if (std::isfinite(x) && row.result.outcome != record::PointOutcome::done)
       curve.lost.push_back(x);
   }
@@ -214,17 +213,16 @@ std::string label_of(const std::string& name) {
       {"rod.diameter_mm", "rod diameter *D* (mm)"},
       {"net.cut_height", "height of the cut *z*^{∗}/*ρ*"}};
   if (const auto at = known.find(name); at != known.end()) return at->second;
-  static const std::vector<std::pair<std::string, std::string>> units{
-      {"_N_per_mm", "N/mm"}, {"_per_mm", "1/mm"}, {"_kg_m3", "kg/m^{3}"},
-      {"_m_s2", "m/s^{2}"},  {"_Nmm", "N mm"},    {"_mm", "mm"},
-      {"_mJ", "mJ"},         {"_GPa", "GPa"},     {"_deg", "degrees"},
-      {"_per_s", "1/s"},     {"_N", "N"},         {"_s", "s"}};
   const auto dot = name.find('.');
-  std::string word = dot == std::string::npos ? name : name.substr(dot + 1);
-  for (const auto& [ending, unit] : units)
-    if (word.ends_with(ending))
-      return plain(spaced(word.substr(0, word.size() - ending.size()))) + " (" + unit + ")";
-  return plain(spaced(word));
+  const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
+  std::string unit = preset::unit_of(key);
+  std::size_t end = key.size();  // of the word before the unit
+  for (std::size_t k = 0; k < key.size() && !unit.empty(); ++k)
+    if (key[k] == '_' && preset::unit_of(key.substr(k)) == unit) end = k;
+  // powers are marked up: "kg/m^{3}"
+  if (const auto power = unit.find('^'); power != std::string::npos)
+    unit = unit.substr(0, power) + "^{" + unit.substr(power + 1) + "}";
+  return plain(spaced(key.substr(0, end))) + (unit.empty() ? "" : " (" + unit + ")");
 }
 
 SweepScale scale_of(const SweepTable& table, std::size_t k) {
@@ -268,6 +266,11 @@ std::string limit_of(const SweepTable::Row& row) {
   const auto* found = row.result.figure("limit");
   const auto* word = found ? std::get_if<std::string>(found) : nullptr;
   return !word || *word == "none" ? "" : *word;
+}
+
+bool is_unstable(const SweepTable::Row& row) {
+  const auto* stable = row.result.figure("stable");
+  return stable && record::number_of(*stable) == 0;
 }
 
 std::vector<std::string> cases_of(const SweepTable& table) {

@@ -37,6 +37,9 @@ double number_of(const record::SweepTable::Row& row, const std::string& figure);
 /// The limit at which a row's run ended: "locking"; empty: none.
 std::string limit_of(const record::SweepTable::Row& row);
 
+/// Whether a row's run ended in a state that is not stable.
+bool is_unstable(const record::SweepTable::Row& row);
+
 /// The names of the cases in their order; one empty name if there are no cases.
 std::vector<std::string> cases_of(const record::SweepTable& table);
 
@@ -69,6 +72,6 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view);
 /// each cell the mean over the seeds; crossed if no run has the figure, dotted if a run ended at a
 /// limit. Errors: Fault::io.
 Result<void> write_sweep_map(const std::filesystem::path& stem, const record::SweepTable& table,
-                             const SweepView& view);
+                             const SweepView& view, const Print& print = {});
 
 }  // namespace gridshell::render

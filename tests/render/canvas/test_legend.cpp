@@ -112,3 +112,10 @@ TEST_CASE("colour keys are in the middle of their row, all of them, smaller wher
     CHECK(blue > 8);
   }
 }
+
+TEST_CASE("the length of a scale bar is in mm or m") {
+  CHECK(scale_bar_text(20) == "20 mm");
+  CHECK(scale_bar_text(2.5) == "2.5 mm");
+  CHECK(scale_bar_text(20000) == "20 m");
+  CHECK(scale_bar_text(1500) == "1.5 m");
+}

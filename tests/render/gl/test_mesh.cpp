@@ -17,7 +17,7 @@ TEST_CASE("a ribbon has two vertices a point, one on either side, and a strip be
           "[mesh]") {
   const std::vector<Eigen::Vector3f> points{{0, 0, 0}, {10, 0, 0}, {17, 7, 0}};
   const std::vector<Eigen::Vector4f> colours(3, {0.5f, 0.25f, 1, 1});
-  const float radius = 2;
+  const float radius = 254;  // a steel tube
   Mesh mesh;
   mesh.add({9, 9, 9}, {0, 0, 1}, {});
   const std::uint32_t first = add_ribbon(mesh, {points, colours, {&radius, 1}});
@@ -27,8 +27,8 @@ TEST_CASE("a ribbon has two vertices a point, one on either side, and a strip be
     for (int side : {0, 1}) {
       const Vertex& v = mesh.vertices[1 + 2 * k + side];
       CHECK(v.position == points[k]);
-      CHECK((side == 0 ? 1 : -1) * v.normal[3] * widest_radius_mm / 32767 ==
-            Approx(radius).epsilon(1e-3));
+      CHECK(radius_mm(v) == Approx(radius).epsilon(1e-3));
+      CHECK((v.normal[3] > 0) == (side == 0));
       CHECK(v.colour[1] == 16384);
     }
   std::vector<std::uint32_t> indices;

@@ -145,8 +145,7 @@ TEST_CASE("rods of other diameters are drawn thicker and thinner in proportion",
   drawing.rings.clear();
   const auto scene = value_of(make_scene(drawing, Camera{}, 0.3));
   std::map<int, int> widths;  // in tenths of a millimetre of the radius
-  for (const Vertex& v : scene.ribbons.vertices)
-    ++widths[int(std::lround(10 * std::abs(v.normal[3]) * widest_radius_mm / 32767.0))];
+  for (const Vertex& v : scene.ribbons.vertices) ++widths[int(std::lround(10 * radius_mm(v)))];
   const int points = int(layout.rods[1].size());
   CHECK(widths[30] == 2 * points);
   CHECK(widths[15] >= 2 * points * (int(layout.rods.size()) - 1));

@@ -13,6 +13,7 @@ record::Trajectory pushed() {
   for (int k = 0; k < 2; ++k) {
     record::Frame& frame = run.frames.edit()[std::size_t(k)];
     frame.K_bins.resize(2, 3);
+    frame.depth_mm = k;
     frame.K_bins << 0.03 + 0.01 * k, 0.002 + 0.001 * k, 8, 0.02 - 0.004 * k, 0.004, 9;
   }
   return run;
@@ -32,6 +33,19 @@ TEST_CASE("bins show the deviations of both states, next to one another") {
   CHECK(now.name == "loaded, mean ± s.d. (right)");
   CHECK(plot.series[3].name == "mean of all cells, unloaded");
   CHECK(plot.series[4].name == "mean of all cells, loaded");
+}
+
+TEST_CASE("bins of a shell that is not pushed are of its first state and now") {
+  record::Trajectory run = pushed();
+  record::FrameList frames;
+  for (record::Frame frame : run.frames) {
+    frame.depth_mm = record::unknown;
+    frames.push_back(std::move(frame));
+  }
+  run.frames = std::move(frames);
+  const Plot plot = bins_plot(summarise_run(run), 17, run.frames.back(), {}, 8);
+  CHECK(plot.series[0].name == "first state, mean ± s.d. (left)");
+  CHECK(plot.series[4].name == "mean of all cells, now");
 }
 
 TEST_CASE("the change of the bins has an axis of its own, symmetric about zero") {

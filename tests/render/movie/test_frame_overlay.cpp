@@ -138,4 +138,9 @@ TEST_CASE("the caption of loads names what is distributed") {
   CHECK(load_caption(weighed) == "loads 30 N, distributed (arrows not to scale)");
   weighed.loads_N(2, 0) = -29;
   CHECK(load_caption(weighed) == "loads 58 N (50 % distributed)");
+  // a couple has no resultant
+  weighed.loads_N.setZero();
+  weighed.loads_N.col(0) = Eigen::Vector3d(3, 0, 0);
+  weighed.loads_N.col(1) = Eigen::Vector3d(-3, 0, 0);
+  CHECK(load_caption(weighed).starts_with("loads with a resultant of 0 N"));
 }

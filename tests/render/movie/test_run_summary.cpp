@@ -21,6 +21,15 @@ record::Trajectory loaded_dome() {
 
 }  // namespace
 
+TEST_CASE("a state alone is compared with the first frame of its run") {
+  const record::Trajectory run = synthetic::dome(3, 2);
+  record::Trajectory last{run.layout, {}};
+  last.frames = {record::Frame(run.frames.back())};
+  const record::Frame first(run.frames.front());
+  CHECK(summarise_run(last).largest_move_mm == 0);
+  CHECK(summarise_run(last, &first).largest_move_mm == Approx(summarise_run(run).largest_move_mm));
+}
+
 TEST_CASE("of the loads of an area a few arrows of one length are shown, without a scale") {
   record::Trajectory run = loaded_dome();
   REQUIRE(run.layout.joints.size() >= 25);

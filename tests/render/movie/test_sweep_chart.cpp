@@ -73,6 +73,9 @@ TEST_CASE("names with their units") {
   CHECK(label_of("energy_bend_mJ") == "bending energy (mJ)");
   CHECK(label_of("rod.young_GPa") == "Young's modulus *E* (GPa)");
   CHECK(label_of("joints.stiffness_N_per_mm") == "stiffness (N/mm)");
+  CHECK(label_of("largest_stress_MPa") == "largest stress (MPa)");
+  CHECK(label_of("joints.mass_g") == "mass (g)");
+  CHECK(label_of("loads.snow_N_m2") == "snow (N/m^{2})");
   CHECK(label_of("newton_iterations") == "newton iterations");
 }
 
@@ -108,7 +111,9 @@ TEST_CASE("a map: all that is written fits, cells without a state are named") {
         if (i == 3)
           result.outcome = record::PointOutcome::no_equilibrium;
         else
-          result.figures = {{"height_mm", double(i * j)}, {"limit", j == 2 ? "snap" : "none"}};
+          result.figures = {{"height_mm", double(i * j)},
+                            {"limit", j == 2 ? "snap" : "none"},
+                            {"stable", i == 1 ? 0.0 : 1.0}};
         table.rows.push_back(
             {{one, {std::to_string(100 + 2.5 * i), std::to_string(0.1 + 0.05 * j)}, 0}, result});
       }
@@ -120,6 +125,7 @@ TEST_CASE("a map: all that is written fits, cells without a state are named") {
     test::check_apart(canvas);
     CHECK(test::has(canvas.texts(), "no state found"));
     CHECK(test::has(canvas.texts(), "ended early"));
+    CHECK(test::has(canvas.texts(), "unstable"));
   });
   REQUIRE(write_sweep_map(folder / "height_mm", table, {.figure = "height_mm", .title = "A map"}));
   CHECK(drawn == 3);
@@ -157,7 +163,10 @@ TEST_CASE("a run that only lacks the figure is no state that was not found") {
   table = {{"rod.diameter_mm", "footprint.rods"}, false, false, {}};
   table.rows.push_back({{"", {"1", "6"}, 0}, {}});
   const TemporaryFolder folder;
-  const test::CanvasObserver watch(
-      [&](const Canvas& canvas) { CHECK_FALSE(test::has(canvas.texts(), "no state found")); });
+  const test::CanvasObserver watch([&](const Canvas& canvas) {
+    if (canvas.width() < 2) return;
+    CHECK_FALSE(test::has(canvas.texts(), "no state found"));
+    CHECK(test::has(canvas.texts(), "no run has force (N)"));
+  });
   REQUIRE(write_sweep_map(folder / "force", table, {.figure = "force_N"}));
 }

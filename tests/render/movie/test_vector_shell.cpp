@@ -40,6 +40,7 @@ TEST_CASE("a shell of lines has fewer, or fainter, of them where it hides them")
   Drawing drawing = render::test::dome_drawing(run);
   drawing.rod_colour = {0, 0, 0, 1};
   drawing.joint_diameter_mm = 0;
+  drawing.cell_colours.clear();
   drawing.rings.clear();
   Camera side;
   side.elevation_deg = 10;
@@ -89,6 +90,28 @@ TEST_CASE("an arrow along the view is a ring with a cross or a dot in it") {
   }
   CHECK(ink_at(20, 0, 3, 3) > 200);  // into the picture
   CHECK(ink_at(0, 20, 3, 3) < 50);
+}
+
+TEST_CASE("coloured cells are filled in lines, under the rods that are seen") {
+  const record::Trajectory run = synthetic::dome(3, 2);
+  MovieStyle style;
+  style.elevation_deg = 90;
+  style.colour_by = ColourBy::K;
+  const Stage stage(run, style);
+  const Drawing drawing = stage.drawing(run.frames[2]);
+  REQUIRE(drawing.cell_colours.size() == run.layout.cells.size());
+  const Image picture = value_of(draw_picture(400, 400, 1, white, [&](Canvas& canvas) {
+    draw_shell_lines(canvas, {0, 0, 400, 400}, drawing, stage.camera(2));
+  }));
+  Camera camera = stage.camera(2);
+  const record::Cell& cell = run.layout.cells[0];
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const int joint : cell.joints)
+    middle += 0.25 * drawing.nodes.col(run.layout.joints[std::size_t(joint)].node);
+  const Eigen::Vector2d at = to_pixel(camera, 400, 400, middle);
+  const auto pixel = picture.pixel(int(at.x()), int(at.y()));
+  CHECK(std::abs(pixel[0] / 255.0 - drawing.cell_colours[0].r) < 0.02);
+  CHECK(std::abs(pixel[2] / 255.0 - drawing.cell_colours[0].b) < 0.02);
 }
 
 TEST_CASE("a push along the view has a sign in pictures too") {
