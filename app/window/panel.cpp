@@ -144,13 +144,7 @@ std::string help_of(const preset::Field& field) {
 
 std::string label_of(const preset::Field& field) {
   if (!field.label.empty()) return field.label;
-  // the key without the ending that is its unit
-  std::size_t end = field.key.size();
-  for (std::size_t k = 0; k < field.key.size(); ++k)
-    if (!field.unit.empty() && field.key[k] == '_' &&
-        preset::unit_of(field.key.substr(k)) == field.unit)
-      end = k;
-  std::string label = field.key.substr(0, end);
+  std::string label = preset::without_unit(field.key, field.unit);
   std::ranges::replace(label, '_', ' ');
   return label;
 }

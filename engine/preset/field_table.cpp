@@ -55,6 +55,13 @@ std::string unit_of(const std::string& key) {
   return "";
 }
 
+std::string without_unit(const std::string& key, std::string_view unit) {
+  std::size_t end = key.size();
+  for (std::size_t k = 0; k < key.size() && !unit.empty(); ++k)
+    if (key[k] == '_' && unit_of(key.substr(k)) == unit) end = k;
+  return key.substr(0, end);
+}
+
 AnyFieldList::AnyFieldList(std::vector<Field>& all, std::string table, StructOf of)
     : all_(all), table_(std::move(table)), of_(std::move(of)) {}
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -113,6 +114,8 @@ std::string key_label(const std::string& table, const std::string& key, int item
 std::string name_of(const Field& field);
 /// The unit that the ending of a key names: "N/mm" of "field_N_per_mm"; empty: none.
 std::string unit_of(const std::string& key);
+/// The key without the ending that names this unit: "field" of "field_N_per_mm" and "N/mm".
+std::string without_unit(const std::string& key, std::string_view unit);
 /// Label of a key of Rule::others: `key` itself if it names its table ("[net] kind"), else
 /// key_label().
 std::string full_label(const std::string& table, const std::string& key, int item = -1);

@@ -102,9 +102,8 @@ Result<void> check_crossings(Scene& scene) {
         if (a < b && t.cross(s).norm() < 1e-3)
           return invalid(
               "joint [{}, {}]: rods[{}] and rods[{}] have equal directions there, expected rods "
-              "that cross, as the joint has a law of the angle between them; ends that continue "
-              "each "
-              "other are drawn as one rod",
+              "that cross, as the joint has a law of the angle between them; two ends in one line "
+              "are drawn as one rod",
               here.i, here.j, a->number, b->number);
       }
   }

@@ -35,9 +35,8 @@ using MeetsBranch = std::function<bool(const TracedPoint&)>;
 
 /// Follows a branch from the current point of `path`, which is included, until it leaves the range,
 /// meets another one or its own beginning, reaches the strain limit, is lost, or has taken the
-/// largest number of steps. Bifurcations are located by bisection,
-/// limit points by smaller steps; both are among the points. If it is cancelled, the last point has
-/// no event.
+/// largest number of steps. Bifurcations are located by bisection, limit points by smaller steps;
+/// both are among the points. If it is cancelled, the last point has no event.
 std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
                                const TraceOptions& options, const MeetsBranch& met,
                                const Watch& watch);

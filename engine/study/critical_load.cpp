@@ -185,11 +185,10 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
       return found;
     }
     found.points = trace(system, motion, std::move(path), how, leaves, watch);
-    const auto of_itself = [](const TracedPoint& point) {
-      return point.event != BranchEvent::none && point.event != BranchEvent::unfinished;
-    };
-    const bool ran_out = std::ranges::none_of(found.points, of_itself) &&
-                         found.points.back().event == BranchEvent::unfinished;
+    // the end of the steps is the only event
+    const auto events = std::ssize(found.points) -
+                        std::ranges::count(found.points, BranchEvent::none, &TracedPoint::event);
+    const bool ran_out = events == 1 && found.points.back().event == BranchEvent::unfinished;
     if (!ran_out || attempt == most_attempts || watch.cancelled()) break;
     // the linear estimate is far too low: repeat in longer steps
     for (double* length : {&how.arc.step_mm, &how.arc.largest_mm}) *length *= 8;

@@ -149,13 +149,9 @@ Eigen::Vector3d tangent_at(const std::vector<int>& rod, std::size_t k,
                            const Eigen::Matrix3Xd& nodes) {
   const bool ring = rod.front() == rod.back();
   const std::size_t last = rod.size() - 1;
-  const std::size_t from = k > 0  ? k - 1
-                           : ring ? last - 1
-                                  : 0,
-                    to = k < last ? k + 1
-                         : ring   ? 1
-                                  : k;
-  if (from == k || to == k) return (nodes.col(rod[to]) - nodes.col(rod[from])).normalized();
+  if (!ring && k == 0) return (nodes.col(rod[1]) - nodes.col(rod[0])).normalized();
+  if (!ring && k == last) return (nodes.col(rod[last]) - nodes.col(rod[last - 1])).normalized();
+  const std::size_t from = k > 0 ? k - 1 : last - 1, to = k < last ? k + 1 : 1;
   const Eigen::Vector3d a = nodes.col(rod[k]) - nodes.col(rod[from]),
                         b = nodes.col(rod[to]) - nodes.col(rod[k]);
   return (a.normalized() * b.norm() + b.normalized() * a.norm()).normalized();

@@ -201,8 +201,10 @@ struct SweepCell {
   int found = 0, failed = 0;  ///< runs with the figure, runs without a state
   bool limited = false, unstable = false;
 
-  double mean() const { return found > 0 ? sum / found : std::nan(""); }
-  bool lost() const { return failed > 0 && found == 0; }
+  bool is_known() const { return found > 0; }
+  double mean() const { return is_known() ? sum / found : std::nan(""); }
+  bool lost() const { return failed > 0 && !is_known(); }
+  bool is_marked() const { return limited || unstable || lost(); }
 };
 
 /// The cells of one case, x fastest.
@@ -235,18 +237,14 @@ class SweepMap {
       }
       for (const SweepCell& cell : made.cells) {
         if (cell.found > 0) values.push_back(cell.mean());
-        any_limited_ = any_limited_ || cell.limited;
-        any_lost_ = any_lost_ || cell.lost();
-        any_unstable_ = any_unstable_ || cell.unstable;
       }
       panels_.push_back(std::move(made));
     }
     bar_ = {label_, scale_for(values)};
-    empty_ = values.empty();
   }
 
   double height() const {
-    const double legend = any_limited_ || any_lost_ || any_unstable_ || empty_ ? 20 : 0;
+    const double legend = !any(&SweepCell::is_known) || any(&SweepCell::is_marked) ? 20 : 0;
     return 2 * margin + title_room + case_room + panel + foot_room + legend;
   }
   double width() const {
@@ -267,7 +265,7 @@ class SweepMap {
         y_.label, {margin + size / 2, top + panel / 2},
         {.size = size, .align_x = AlignX::centre, .align_y = AlignY::middle, .angle_deg = 90});
     const double bottom = top + panel + foot_room + 4 + size / 2;
-    if (empty_) {
+    if (!any(&SweepCell::is_known)) {
       canvas.text("no run has " + label_, {margin + label_room, bottom},
                   {.size = size, .align_y = AlignY::middle});
       return;
@@ -280,6 +278,12 @@ class SweepMap {
  private:
   static constexpr double size = 8, margin = 5, panel = 150, gap = 14, title_room = 20,
                           case_room = 13, foot_room = 30, label_room = 44, bar_gap = 12;
+
+  /// Whether a cell of any case is so.
+  bool any(auto is) const {
+    return std::ranges::any_of(
+        panels_, [&](const CasePanel& one) { return std::ranges::any_of(one.cells, is); });
+  }
 
   static ColourScale scale_for(const std::vector<double>& values) {
     if (values.empty()) return {sequential, 0, 1};
@@ -324,15 +328,15 @@ class SweepMap {
       const TextStyle style{.size = size - 0.5, .align_y = AlignY::middle};
       at.x = canvas.text(text, {at.x + 8, at.y}, style).right() + 14;
     };
-    if (any_limited_) {
+    if (any(&SweepCell::limited)) {
       canvas.circle(at, 2.4, white, {ink, 0.6});
       entry("ended early");
     }
-    if (any_unstable_) {
+    if (any(&SweepCell::unstable)) {
       canvas.marker(Marker::diamond, at, 5, white, {ink, 0.6});
       entry("unstable");
     }
-    if (any_lost_) {
+    if (any(&SweepCell::lost)) {
       canvas.marker(Marker::cross, at, 6, ink, {ink, 0.8});
       entry("no state found");
     }
@@ -342,7 +346,6 @@ class SweepMap {
   std::string label_, title_;
   std::vector<CasePanel> panels_;
   ColourBar bar_;
-  bool any_limited_ = false, any_lost_ = false, any_unstable_ = false, empty_ = false;
 };
 
 }  // namespace

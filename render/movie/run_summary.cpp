@@ -223,13 +223,12 @@ RunSummary::RunSummary(const record::Layout& layout, const record::Frame* origin
     : lowest_z_mm(std::min(lowest(layout.original_boundary), lowest(layout.actuated_boundary))),
       support_z_mm(lowest_z_mm),
       layout_(&layout),
-      has_origin_(origin),
       rod_points_(thinned(rod_points(layout), 600)) {
   if (origin) first = *origin;
 }
 
 void RunSummary::take(const record::Frame& frame) {
-  if (frames == 0 && !has_origin_) first = frame;
+  if (frames == 0 && first.nodes.cols() == 0) first = frame;
   if (frame.loads_N.cols() > 0)
     largest_load_N = std::max(largest_load_N, frame.loads_N.colwise().norm().maxCoeff());
   arrows_to_scale |= frame.loads_N.cols() > 0 && !loads_all_alike(frame);

@@ -155,7 +155,6 @@ class RunSummary {
   void sample_points(const record::Frame& frame);
 
   const record::Layout* layout_;
-  bool has_origin_ = false;
   std::array<ColouredRange, words_of<ColourBy>().size()> spreads_;
   std::vector<double> depths_mm_, radii_mm_;      ///< of every frame
   std::vector<RodSample> rod_points_;             ///< at the same positions of rods on every mesh

@@ -41,14 +41,20 @@ class Eye {
   Box box_;
 };
 
+/// The corners of a cell as the camera sees them.
+std::array<Seen, 4> corners_of(const record::Cell& cell, const Drawing& drawing, const Eye& eye) {
+  std::array<Seen, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k)
+    corners[k] = eye(drawing.nodes.col(drawing.layout->joints[cell.joints[k]].node));
+  return corners;
+}
+
 /// The cells as seen by the camera, two triangles each, with depths.
 class Screen {
  public:
   Screen(const Drawing& drawing, const Eye& eye) {
     for (const record::Cell& cell : drawing.layout->cells) {
-      std::array<Seen, 4> corner;
-      for (int k = 0; k < 4; ++k)
-        corner[k] = eye(drawing.nodes.col(drawing.layout->joints[cell.joints[k]].node));
+      const std::array<Seen, 4> corner = corners_of(cell, drawing, eye);
       triangles_.push_back({corner[0], corner[1], corner[2]});
       triangles_.push_back({corner[0], corner[2], corner[3]});
     }
@@ -56,7 +62,7 @@ class Screen {
       for (const Seen& corner : t)
         low_ = std::min(low_, corner.at.y), high_ = std::max(high_, corner.at.y);
     for (const Triangle& t : triangles_) {
-      const auto [first, last] = std::ranges::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
+      const auto [first, last] = std::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
       for (int row = row_of(first); row <= row_of(last); ++row)
         rows_[std::size_t(row)].push_back(&t);
     }
@@ -131,23 +137,24 @@ class Lines {
   void fill_cells() {
     const std::vector<record::Cell>& cells = drawing_.layout->cells;
     if (drawing_.cell_colours.size() != cells.size()) return;
-    std::vector<std::pair<double, std::size_t>> order;  // by the depth of the middle
-    std::vector<std::vector<Point>> corners(cells.size());
+    struct Filled {
+      double depth = 0;  // sum of the corners'
+      std::vector<Point> corners = {};
+      Colour colour = {};
+    };
+    std::vector<Filled> order;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      double depth = 0;
-      for (const int joint : cells[c].joints) {
-        const Seen corner = eye_(drawing_.nodes.col(drawing_.layout->joints[joint].node));
-        corners[c].push_back(corner.at);
-        depth += corner.depth;
+      Filled& one = order.emplace_back();
+      one.colour = drawing_.cell_colours[c];
+      for (const Seen& corner : corners_of(cells[c], drawing_, eye_)) {
+        one.corners.push_back(corner.at);
+        one.depth += corner.depth;
       }
-      order.emplace_back(-depth, c);
     }
-    std::ranges::sort(order);
-    for (const auto& [depth, c] : order) {
-      const Colour& fill = drawing_.cell_colours[c];
-      // an outline of the same colour leaves no seams
-      if (fill.a > 0) canvas_.polygon(corners[c], fill, {fill, 0.3});
-    }
+    std::ranges::stable_sort(order, std::ranges::greater{}, &Filled::depth);
+    // an outline of the same colour leaves no seams
+    for (const Filled& one : order)
+      if (one.colour.a > 0) canvas_.polygon(one.corners, one.colour, {one.colour, 0.3});
   }
 
   /// Draws the parts that are hidden, or those that are visible.

@@ -216,13 +216,11 @@ std::string label_of(const std::string& name) {
   const auto dot = name.find('.');
   const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
   std::string unit = preset::unit_of(key);
-  std::size_t end = key.size();  // of the word before the unit
-  for (std::size_t k = 0; k < key.size() && !unit.empty(); ++k)
-    if (key[k] == '_' && preset::unit_of(key.substr(k)) == unit) end = k;
+  const std::string word = preset::without_unit(key, unit);
   // powers are marked up: "kg/m^{3}"
   if (const auto power = unit.find('^'); power != std::string::npos)
     unit = unit.substr(0, power) + "^{" + unit.substr(power + 1) + "}";
-  return plain(spaced(key.substr(0, end))) + (unit.empty() ? "" : " (" + unit + ")");
+  return plain(spaced(word)) + (unit.empty() ? "" : " (" + unit + ")");
 }
 
 SweepScale scale_of(const SweepTable& table, std::size_t k) {

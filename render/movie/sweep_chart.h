@@ -69,8 +69,9 @@ Plot sweep_plot(const record::SweepTable& table, const SweepView& view);
 Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view);
 
 /// Writes the figure over two keys as a map, `<stem>.png`, `.svg` and `.pdf`: a panel per case,
-/// each cell the mean over the seeds; crossed if no run has the figure, dotted if a run ended at a
-/// limit. Errors: Fault::io.
+/// each cell the mean over the seeds; crossed if no run has a state, with a diamond if one is
+/// unstable, dotted if one ended at a limit. A sentence if no run has the figure. Errors:
+/// Fault::io.
 Result<void> write_sweep_map(const std::filesystem::path& stem, const record::SweepTable& table,
                              const SweepView& view, const Print& print = {});
 
