@@ -55,9 +55,32 @@ std::string joint_text(const preset::Indentation& push, const Scene& scene) {
       push.latitude_deg, push.longitude_deg);
 }
 
+/// How far the supports move; empty for a circle, whose radii are printed, and for a net.
+std::string motion_text(const preset::Preset& preset, const Scene& scene) {
+  if (preset.footprint.kind == preset::FootprintKind::circle || scene.from_net) return "";
+  const BoundaryMotion& motion = scene.motion;
+  const double farthest_mm = std::max(max_column_norm(motion.end - motion.begin),
+                                      max_column_norm(motion.end_joints - motion.begin_joints));
+  const preset::Actuation& to = preset.actuation;
+  if (farthest_mm > 0)
+    return fmt::format(
+        "supports        move by up to {:.3g} mm{}", farthest_mm,
+        preset.footprint.kind == preset::FootprintKind::curve && to.scale == 0 &&
+                to.boundary.kind == preset::CurveKind::circle
+            ? fmt::format(", to a circle of {:g} mm ([actuation] radius_mm)", to.radius_mm)
+            : "");
+  const bool still = !scene.rods.loaded() && preset.step.empty() && scene.load_cases.empty() &&
+                     !preset.indentation.requested();
+  return fmt::format("supports        do not move{}",
+                     still ? ", and nothing loads or pushes the shell: it stays as it is drawn; "
+                             "[actuation] scale moves them"
+                           : "");
+}
+
 /// What a run does to the shell in addition to forming it, one line each.
 std::vector<std::string> what_is_done(const preset::Preset& preset, const Scene& scene) {
   std::vector<std::string> lines;
+  if (auto text = motion_text(preset, scene); !text.empty()) lines.push_back(std::move(text));
   if (const preset::Indentation& push = preset.indentation; push.requested())
     lines.push_back(fmt::format(
         "push            {} {} by {}{}{}", joint_text(push, scene), word_of(push.direction),

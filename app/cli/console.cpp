@@ -123,8 +123,10 @@ bool flush_stdout(int failed_before) {
   errno = failed_before;
   const bool flushed = std::fflush(stdout) == 0;
   if (flushed && !std::ferror(stdout)) return true;
-  std::fprintf(stderr, "cannot write to standard output: %s\n",
-               errno ? std::strerror(errno) : "it was cut short");
+  // the reader, such as `head`, has read enough
+  if (errno != EPIPE)
+    std::fprintf(stderr, "cannot write to standard output: %s\n",
+                 errno ? std::strerror(errno) : "it was cut short");
   return false;
 }
 

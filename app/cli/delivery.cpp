@@ -40,7 +40,7 @@ std::string path_text(const Watch& watch, PathPace& pace) {
   const Watch::Position position = watch.position();
   if (position.edges == 0 || watch.progress() >= 0.5) return "";
   const double left = pace.seconds_left(position, seconds_now());
-  return fmt::format(": the path at {:.3f}, on {} edges per segment, time left on them {}",
+  return fmt::format(": the path at {:.3f}, on {} edges per segment, remaining time there {}",
                      position.t, position.edges, std::isnan(left) ? "unknown" : time_text(left));
 }
 
@@ -99,13 +99,14 @@ Result<void> attempt(const Work& work, const fs::path& partial, Progress& progre
 
 /// A text that lists the complete files of a folder.
 std::string whole_files(const Left& left, const std::string& name) {
-  const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
-  if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
-  std::string others;
-  if (left.runs + left.pictures > 0) others = ", " + whole;
-  return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
-                     count_text(left.frames, "frame"), others, name,
-                     render::shell_line({"gridshell", "render", name}));
+  std::vector<std::string> found;
+  if (left.frames > 0) found.push_back(count_text(left.frames, "frame") + " of an unfinished run");
+  if (left.runs > 0) found.push_back(count_text(left.runs, "finished run"));
+  if (left.pictures > 0) found.push_back(count_text(left.pictures, "picture"));
+  auto text = fmt::format("complete in '{}': {}", name, fmt::join(found, ", "));
+  if (left.runs + left.frames > 0)
+    text += "; this draws all frames:\n  " + render::shell_line({"gridshell", "render", name});
+  return text;
 }
 
 /// Cleans a folder that will not be finished: removes half-written files, and the folder itself if

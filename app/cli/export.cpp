@@ -231,7 +231,7 @@ Result<std::string> text_of(const ExportOptions& options) {
     if (name != what) continue;
     if (const auto text = texts.find(extension); text != texts.end())
       return text->second.text(options);
-    return invalid("--to {}: a {} is written as {}", options.to.string(), what,
+    return invalid("--to {}: --what {} is written as {}", options.to.string(), what,
                    extensions_of(texts));
   }
   return invalid("--what {}: expected one of\n{}", what, exported_formats());

@@ -128,7 +128,8 @@ bool is_of_path(const std::string& name) {
 bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
   static const std::string data = fmt::format(
       " summary.json preset.toml joints.csv cells.csv frames.csv bins.csv seams.csv trajectory.h5 "
-      "movie.mp4 accuracy.csv scaling.csv stability.csv branches.csv design.json design.csv "
+      "movie.mp4 movie.webm movie.gif title.png poster.png accuracy.csv scaling.csv stability.csv "
+      "branches.csv design.json design.csv "
       "ends.csv ends_rounded.csv rods.csv scan.json scan.csv measured.csv scan.png frames "
       "{} {} {} {} {} {} ",
       record::states_name, record::search_name, record::transitions_name, record::barriers_name,

@@ -292,9 +292,12 @@ std::optional<int> finished(const fs::path& folder, const std::string& presets,
 /// (bad_input): there is only a run of another preset, of other keys or by another build.
 Result<fs::path> unfinished_run(const fs::path& folder, const std::string& presets) {
   std::string why;
-  if (fs::exists(folder / "summary.json"))
-    why = fmt::format("'{}' is a finished run of another command or preset, or has other keys",
+  if (fs::exists(folder / "summary.json")) {
+    if (const auto refused = refusal_to_write(folder, "run"); !refused.empty())
+      return invalid("--resume: '{}': {}", folder.string(), refused);
+    why = fmt::format("'{}' is a finished run of another preset, or of this one with other keys",
                       folder.string());
+  }
   for (const fs::path& left : left_behind(folder)) {
     const auto made_by = read_file(left / segments_name / version_name, largest_text);
     if (!made_by) continue;

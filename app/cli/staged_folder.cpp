@@ -100,6 +100,12 @@ void remove_empty(fs::path folder, const fs::path& outermost) {
   }
 }
 
+// the number of a folder in its file system; 0 if there is none
+ino_t number_of(const fs::path& folder) {
+  struct stat about {};
+  return ::stat(folder.c_str(), &about) == 0 ? about.st_ino : 0;
+}
+
 // makes a folder with a new name; the process id alone may have been used before
 Result<fs::path> make_new(const fs::path& target, const char* kind) {
   for (int k = 1;; ++k) {
@@ -234,6 +240,7 @@ StagedFolder::StagedFolder(fs::path final_folder, std::string command, fs::path 
       partial_(std::move(partial)),
       command_(std::move(command)),
       first_made_(std::move(first_made)),
+      replaces_(number_of(final_)),
       lock_(lock) {}
 
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
@@ -241,6 +248,7 @@ StagedFolder::StagedFolder(StagedFolder&& other) noexcept
       partial_(std::move(other.partial_)),
       command_(std::move(other.command_)),
       first_made_(std::move(other.first_made_)),
+      replaces_(other.replaces_),
       lock_(std::exchange(other.lock_, -1)),
       settled_(std::exchange(other.settled_, true)) {}
 
@@ -270,8 +278,10 @@ Result<std::string> StagedFolder::commit() {
     return std::string();
   }
   if (code != EEXIST && code != ENOTEMPTY && code != ENOTDIR) return refuse(reason(code));
-  // another program may have changed the folder since create()
+  // another program may have changed or written the folder since create()
   if (const auto because = refusal(final_, command_); !because.empty()) return refuse(because);
+  if (number_of(final_) != replaces_)
+    return refuse("another command wrote it meanwhile; choose another folder with -o");
   if (const auto lost = longer_frames(final_, partial_);
       command_ == "movie" && maker_of(final_) == "run" && !lost.empty())
     return refuse(fmt::format(

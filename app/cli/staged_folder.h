@@ -2,6 +2,8 @@
 // temporary name until it is complete.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -70,8 +72,8 @@ class StagedFolder {
 
   /// Writes the manifest, gives the folder its final name and removes the run that had it. Returns
   /// a message if that run could not be removed completely, else an empty text. Errors: io, also if
-  /// the final name now belongs to something that must not be replaced, or to a run with more
-  /// frames than this movie.
+  /// the final name now belongs to something that must not be replaced, to a folder that another
+  /// program wrote since create(), or to a run with more frames than this movie.
   Result<std::string> commit();
 
   /// Leaves the folder under its partial name, without half-written files.
@@ -86,6 +88,7 @@ class StagedFolder {
   std::filesystem::path final_, partial_;
   std::string command_;
   std::filesystem::path first_made_;  // the outermost parent that was made, or empty
+  ino_t replaces_;                    // the folder that had the final name at first; 0: none
   int lock_ = -1;                     // descriptor of the folder, locked
   bool settled_ = false;              // commit() or keep() was called, or it was moved from
 };

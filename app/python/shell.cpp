@@ -16,7 +16,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   Shell shell(std::make_shared<const preset::Preset>(preset), scene);
   TRY(session, Simulation::open(shell.scene_, simulate::initial_levels(*shell.scene_)));
   shell.session_ = std::move(*session);
-  if (!shell.scene_->drawn_in_space) {
+  if (!shell.scene_->from_drawing) {
     (void)shell.session_->begin_flat();
   } else if (auto begun = shell.form(0, unwatched); !begun) {
     return tl::unexpected<Error>(begun.error());
@@ -37,7 +37,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
-  if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // the current state
+  if (progress == 0 && (formed_ || !scene_->from_drawing))  // the current state
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
   auto path = simulate::converged_actuation(scene_, false, progress, watch);
   if (!path) return tl::unexpected<Error>(path.error());

@@ -63,7 +63,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const bool constrains =
       step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (constrains)
-    if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
+    if (const auto joint = joint_named(now_.scene->footprint, step.joint))
       // the position in the view, which the coarse mesh of a drag has not changed yet
       session_->constraint_origins.emplace(*joint,
                                            view_.frame.nodes.cols() > *joint
@@ -83,7 +83,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   simulate::PathSegment path;
   TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &path : nullptr));
   if (before && report->end == Outcome::locked) {
-    const auto joint = simulate::joint_of(step, now_.scene->footprint);
+    const auto joint = joint_named(now_.scene->footprint, step.joint);
     return resist(std::move(step), *before, session_->nodes().col(*joint), watch);
   }
   const std::string event_at = note_path(step, path, began_mm, began_stable, *report);
@@ -102,7 +102,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
 /// their strain limit. It remains there until it is dragged back.
 Result<void> EditSession::resist(preset::Step step, const Checkpoint& before,
                                  const Eigen::Vector3d& reached, const Watch& watch) {
-  const auto joint = simulate::joint_of(step, now_.scene->footprint);
+  const auto joint = joint_named(now_.scene->footprint, step.joint);
   session_->restore(before);
   const Eigen::Vector3d from = session_->nodes().col(*joint),
                         to = from + free_fraction * (reached - from);
@@ -133,7 +133,7 @@ void EditSession::add_step(preset::Step step, const Report& report) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
     step.progress = session_->progress();
     if (step.kind == preset::StepKind::push)
-      if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
+      if (const auto joint = joint_named(now_.scene->footprint, step.joint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
   if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->dragged());

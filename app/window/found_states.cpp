@@ -110,7 +110,7 @@ std::string text_of_range(const PathMark& mark, const std::function<double(doubl
 /// The distance, mm, of a pushed joint from the position in which its constraint was set.
 double EditSession::pushed_mm(const preset::Step& step) const {
   if (step.kind != preset::StepKind::push) return 0;
-  const auto joint = simulate::joint_of(step, now_.scene->footprint);
+  const auto joint = joint_named(now_.scene->footprint, step.joint);
   const auto from =
       joint ? session_->constraint_origins.find(*joint) : session_->constraint_origins.end();
   if (from == session_->constraint_origins.end()) return 0;
@@ -147,7 +147,7 @@ std::string EditSession::note_path(const preset::Step& step, const simulate::Pat
                                  position_text({at, at}));
   }
   if (path.load_steps.empty()) return "";
-  const auto joint = simulate::joint_of(step, now_.scene->footprint);
+  const auto joint = joint_named(now_.scene->footprint, step.joint);
   const double grew_mm = pushed_mm(step) - began_mm,
                end = std::max(1e-12, path.load_steps.back().point.t);
   const auto position = [&](double t) {

@@ -15,7 +15,7 @@ constexpr double least_shortening = 1e-3;  // nearer to the flat state no path i
 
 /// The least progress of the boundary to which a path is followed.
 double least_progress_of(const Simulation& session) {
-  if (session.scene().drawn_in_space) return 0;
+  if (session.scene().from_drawing) return 0;
   const NestedShell& shell = session.shell();
   PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
   const auto t = parameter_of_shortening(shell.mesh(0), motion, least_shortening);

@@ -45,6 +45,7 @@ struct Bolts {
   /// Whether the bolts resist only changes of the mean angle, by one torque that is equal at all
   /// joints.
   bool mean = false;
+  double angle_error_rad = 0;  ///< largest error of the angles at tightening
 
   /// The angle between the first two rods of a joint at tightening, rad; negative if they had
   /// passed one another.

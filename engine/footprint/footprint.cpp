@@ -212,11 +212,12 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
                size = radius / spacing;
   if (!(size - least > on_boundary)) {
     const double most = std::sqrt(std::max(std::pow(size - short_leg, 2) - middle * middle, 0.0));
+    const int fitting = size > short_leg ? 2 * int(most + middle) + (even ? 0 : 1) : 0;
     return invalid(
         "{} rods per direction at d = {:g} mm do not fit the boundary: the outermost crossing lies "
-        "at {:.7g} mm; take R_o >= {:.7g} mm or n <= {}",
+        "at {:.7g} mm; take R_o >= {:.7g} mm{}",
         rods, spacing, least * spacing, std::ceil(1e4 * (least + short_leg) * spacing) / 1e4,
-        2 * int(most + middle) + (even ? 0 : 1));
+        fitting > 1 ? fmt::format(" or n <= {}", fitting) : "");
   }
   Footprint net{spacing, placement, {}, {}, {}};
   const int first = even ? -rods / 2 : -(rods - 1) / 2;

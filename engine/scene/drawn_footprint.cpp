@@ -263,7 +263,6 @@ Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   put_motion(*made, network.points, EndMotion(preset, scene), scene);
   put_boundaries(*made, network.points, scene);
   scene.footprint = std::move(made->footprint);
-  scene.drawn_in_space = scene.footprint.in_space();
   return {};
 }
 

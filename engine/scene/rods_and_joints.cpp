@@ -152,10 +152,20 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
   return rods;
 }
 
+/// Whether a rod is drawn bent: its chord is shorter than the rod by a tenth of the shortening at
+/// which paths from the flat begin, or more.
+bool drawn_bent(const FootprintRod& rod) {
+  constexpr double least_shortening = 1e-4;
+  if (rod.path.empty()) return false;
+  const double chord = (rod.on_path(rod.span.end) - rod.on_path(rod.span.begin)).norm();
+  return chord < (1 - least_shortening) * (rod.span.end - rod.span.begin);
+}
+
 Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   const Footprint& footprint = scene.footprint;
   const preset::Loads& loads = preset.loads;
   TRY(rods, rods_of(preset, footprint));
+  scene.from_drawing = footprint.in_space();
   double deepest_mm = 0;
   for (const preset::Rod& rod : *rods) {
     deepest_mm = std::max(deepest_mm, rod.thinnest_mm());
@@ -167,6 +177,8 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     const RodMaterial material = material_of(rod);
     const double mass = mass_t_per_mm(rod, material);
     scene.rods.materials.push_back(material);
+    const FootprintRod& drawn = footprint.rods[scene.rods.materials.size() - 1];
+    if (drawn.number >= 0 && !material.as_drawn && drawn_bent(drawn)) scene.from_drawing = true;
     scene.mass_t_per_mm.push_back(mass);
     scene.strength_MPa.push_back(rod.fibre_strength_MPa());
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
@@ -202,7 +214,7 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   for (FootprintJoint& joint : scene.footprint.joints)
     joint.eccentricity = preset.joints.eccentricity_mm;
   if (preset.footprint.kind != preset::FootprintKind::network) return {};
-  for (std::size_t r = 0; scene.drawn_in_space && r < scene.rods.materials.size(); ++r)
+  for (std::size_t r = 0; scene.footprint.in_space() && r < scene.rods.materials.size(); ++r)
     if (scene.rods.materials[r].as_drawn && scene.footprint.rods[r].closed())
       return invalid(
           "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section is rotated after one "

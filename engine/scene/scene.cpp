@@ -1,6 +1,7 @@
 #include "engine/scene/scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -146,6 +147,18 @@ int joint_at(const Footprint& footprint, int i, int j) {
   const auto found = std::ranges::find_if(
       footprint.joints, [&](const FootprintJoint& joint) { return joint.i == i && joint.j == j; });
   return found == footprint.joints.end() ? -1 : int(found - footprint.joints.begin());
+}
+
+Result<int> joint_named(const Footprint& footprint, const std::vector<int>& name) {
+  if (name.size() == 2)
+    if (const int joint = joint_at(footprint, name[0], name[1]); joint >= 0) return joint;
+  const auto& joints = footprint.joints;
+  const auto [i_least, i_most] = std::ranges::minmax_element(joints, {}, &FootprintJoint::i);
+  const auto [j_least, j_most] = std::ranges::minmax_element(joints, {}, &FootprintJoint::j);
+  return invalid(
+      "joint: got [{}], expected [i, j] of one of the {} joints, i from {} to {} and j from {} to "
+      "{}; joints.csv lists them",
+      fmt::join(name, ", "), joints.size(), i_least->i, i_most->i, j_least->j, j_most->j);
 }
 
 /// Whether all joints resist spin of the rods' sections from the joint's normal.

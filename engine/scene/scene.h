@@ -44,8 +44,10 @@ struct Scene {
   std::shared_ptr<const ChebyshevNet> net;   ///< on which the shell was designed, if any
   std::shared_ptr<const Assemblage> blocks;  ///< building blocks of the net, if any
   std::shared_ptr<const MeshNetReport> mesh_net;  ///< report of a net on a mesh
-  bool from_net = false;               ///< whether the path starts at the net, at progress 1
-  bool drawn_in_space = false;         ///< whether the path starts at the drawn shape, progress 0
+  bool from_net = false;  ///< whether the path starts at the net, at progress 1
+  /// Whether the path starts at the equilibrium beside the drawn shape, progress 0: a network in
+  /// space, or one with straight rods that are drawn bent.
+  bool from_drawing = false;
   Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
   /// radius of a circular boundary
@@ -87,6 +89,8 @@ struct Scene {
 
 /// The joint (i, j), or -1.
 int joint_at(const Footprint& footprint, int i, int j);
+/// The joint of a key `joint`. Errors (bad_input): there is none, with the range of i and j.
+Result<int> joint_named(const Footprint& footprint, const std::vector<int>& name);
 
 /// Builds the scene of a preset. Errors: Fault::bad_input with the reason if the preset's values do
 /// not define a footprint.

@@ -13,6 +13,7 @@
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_policy.h"
+#include "engine/simulate/path_doubt.h"
 #include "engine/simulate/path_sampler.h"
 #include "engine/simulate/shell_symmetry.h"
 #include "engine/solve/buckling.h"
@@ -148,7 +149,7 @@ std::optional<std::size_t> segment_at(const EquilibriumPath& path, double t) {
 /// Whether the rods have no natural curvature: the flat state then has no forces, and its frame is
 /// exact.
 bool rests_flat(const Scene& scene) {
-  return !scene.drawn_in_space &&
+  return !scene.from_drawing &&
          std::ranges::all_of(scene.rods.materials, [](const RodMaterial& material) {
            return material.curvature.isZero(0);
          });
@@ -224,6 +225,8 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const Watch& watch, const RunContext& context) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch, context);
   if (!actuated) return actuated;
+  if (const std::string doubt = doubt_about(*actuated); !doubt.empty())
+    actuated->doubt_before = "of the actuation: " + doubt;
   actuated->earlier = std::exchange(actuated->segments, {});
   for (PathSegment& segment : actuated->earlier) segment.free_states();
   if (actuated->too_coarse()) return actuated;

@@ -102,12 +102,14 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
                             const Watch& watch) {
   Simulation& simulation = path.simulation;
   PathSegment segment{{}, simulation.shell().state().t, to, {}};
-  const auto begun = to < segment.from ? std::nullopt : simulation.exceeded_limit();
-  segment.report = simulation.go(begun ? segment.from : to, watch, leaving, &segment);
-  if (begun) {
-    segment.report.end = outcome_of(begun->kind);
-    segment.report.events.push_back(*begun);
-  }
+  const bool drawn = simulation.actuating() && simulation.scene().from_drawing;
+  const auto exceeded = to < segment.from ? std::nullopt : simulation.exceeded_limit();
+  segment.report = simulation.go(exceeded && !drawn ? segment.from : to, watch, leaving, &segment);
+  if (exceeded && segment.report.end == Outcome::reached)
+    if (const auto still = simulation.exceeded_limit()) {
+      segment.report.end = outcome_of(still->kind);
+      segment.report.events.push_back(*still);
+    }
   segment.path_end = simulation.save();
   return path.segments.emplace_back(std::move(segment));
 }

@@ -84,6 +84,7 @@ struct EquilibriumPath {
   double seconds_setup = 0;
   /// A sentence on what a second mesh does not confirm, or on a missed tolerance; empty: neither.
   std::string mesh_disagreement = {};
+  std::string doubt_before = {};  ///< doubt_about() the actuation before a push or steps
   bool tolerance_missed = false;  ///< whether an error is above the tolerance or not known
   /// Which limit ended the path, and the sentence that reports it; written by set_limit().
   record::Limit limit = record::Limit::none;
@@ -128,7 +129,8 @@ bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadSt
 bool all_stable(const PathSegment& segment);
 
 /// Follows the path from the current state to parameter `to` and appends the segment. From a state
-/// at a limit only a segment back towards the flat state can be followed.
+/// past a limit only a segment back towards the flat state can be followed, or one from a drawing,
+/// whose rods may be strained before anything moves: it ends if it exceeds that state's measures.
 PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch);
 

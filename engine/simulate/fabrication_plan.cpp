@@ -95,7 +95,7 @@ Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& prese
     work.joints.push_back(scene->flat.at({joint.u, joint.v}).head<2>());
   work.original_boundary = scene->original_boundary.topRows<2>();
   work.actuated_boundary = scene->actuated_boundary;
-  work.in_space = scene->drawn_in_space;
+  work.in_space = scene->footprint.in_space();
   work.original_radius_mm = scene->radius_begin_mm;
   work.actuated_radius_mm = scene->radius_end_mm;
   return exports::spliced(std::move(work), preset.figure.stock_mm);

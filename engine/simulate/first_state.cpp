@@ -117,7 +117,7 @@ Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellR
 }
 
 bool begins_as_drawn(const Scene& scene, const RodMesh& mesh, const PinnedMotion& motion) {
-  if (scene.drawn_in_space) return true;
+  if (scene.from_drawing) return true;
   const bool network = scene.footprint.rods.front().number >= 0;
   return !scene.from_net && (scene.rods.loaded() || !scene.load_cases.empty() || network) &&
          !parameter_of_shortening(mesh, motion, least_shortening);

@@ -96,12 +96,10 @@ Result<void> not_on_boundary(const Footprint& footprint, int joint) {
 
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints) {
-  if (indentation.joint.size() == 2) {
-    const int joint = joint_at(footprint, indentation.joint[0], indentation.joint[1]);
-    if (joint >= 0) return joint;
-    return invalid("[indentation] joint: got [{}, {}], expected a joint of the footprint",
-                   indentation.joint[0], indentation.joint[1]);
-  }
+  if (!indentation.joint.empty())
+    return joint_named(footprint, indentation.joint).map_error([](const Error& error) {
+      return Error{error.fault, "[indentation] " + error.message};
+    });
   const Eigen::VectorXd height = joints.row(2).transpose();
   if (indentation.at == preset::IndentationPosition::highest && indentation.latitude_deg == 90)
     return best_joint(footprint, height);

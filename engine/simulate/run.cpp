@@ -16,7 +16,7 @@
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_policy.h"
-#include "engine/simulate/shell_symmetry.h"
+#include "engine/simulate/path_doubt.h"
 #include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/mesh_levels.h"
@@ -152,51 +152,6 @@ void put_seams(const Scene& scene, record::Summary& s) {
   }
 }
 
-/// A sentence on a state that is closer to its own image under a symmetry than expected, by more
-/// than its error. The meshes agree on such states, since each takes one for the other.
-std::string near_image(const EquilibriumPath& path) {
-  const Simulation& simulation = path.simulation;
-  const Scene& scene = simulation.scene();
-  if (path.of_steps() || !simulation.constraints().empty()) return "";
-  constexpr double indistinguishable = 0.02;  // in units of d
-  double least = scene.tolerance * scene.length_scale_mm / 4;
-  if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
-    least = 2 * error;
-  const double off = distance_of_image(simulation, least);
-  if (!(off < indistinguishable * scene.footprint.spacing)) return "";
-  return fmt::format(
-      "the state lies {:.2g} mm from its own image under a symmetry of the shell, "
-      "more than its error: either several states nearly coincide and it is one of them by chance, "
-      "or on finer meshes (a smaller [accuracy] tolerance) it is symmetric",
-      off);
-}
-
-/// A sentence on a path that enters a branch long after the bifurcation. If several modes lose
-/// stability at once, it may enter another branch.
-std::string late_on_branch(const EquilibriumPath& path) {
-  constexpr double late = 0.05;  // in the path parameter
-  for (const PathSegment& segment : path.segments)
-    for (const Event& event : segment.report.events)
-      if (!path.of_steps() && !event.jump && event.to && std::abs(*event.to - event.t) > late)
-        return fmt::format(
-            "a branch bifurcates from the path at progress {:.4f}, and its first state was "
-            "found at progress {:.4f}: if several branches bifurcate there, which one it is may "
-            "depend on the mesh",
-            progress_at(event.t), progress_at(*event.to));
-  return "";
-}
-
-/// A sentence on a rod that may turn, whose state is then one of many.
-std::string turns_freely(const EquilibriumPath& path) {
-  const Scene& scene = path.simulation.scene();
-  const double off = off_free_axis(path.simulation);
-  if (!(off > scene.tolerance * scene.length_scale_mm)) return "";
-  return fmt::format(
-      "a rod is {:.3g} mm off the line of its supports or joints and turns about it without "
-      "force: its position around that line is one of many",
-      off);
-}
-
 /// Writes how the path was followed, and on which meshes, into the summary.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -205,11 +160,8 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   if (const std::string why = why_so_fine(path); !why.empty()) s.model_reason += "; " + why;
   s.limit = path.limit;
   s.limit_reason = path.limit_reason;
-  s.doubt = path.mesh_disagreement;
+  s.doubt = doubt_about(path);
   s.tolerance_met = !path.tolerance_missed;
-  if (s.doubt.empty()) s.doubt = late_on_branch(path);
-  if (s.doubt.empty()) s.doubt = near_image(path);
-  if (s.doubt.empty()) s.doubt = turns_freely(path);
   for (const ContactEvent& event : path.contacts)
     s.contact += (s.contact.empty() ? "" : "; ") + event.text;
   s.largest_strain = path.simulation.certificate().largest_strain;
@@ -230,7 +182,7 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 
 /// Checks that the boundary's motion makes a flat grid buckle at all. Errors: bad_input.
 Result<void> check_motion(const Scene& scene) {
-  if (scene.from_net || scene.drawn_in_space || scene.rod_model == RodModel::net) return {};
+  if (scene.from_net || scene.from_drawing || scene.rod_model == RodModel::net) return {};
   MeshLevel flat;
   const int edges = initial_levels(scene).edges_per_segment.front();
   TRY_DO(flat.build(scene.footprint, scene.rods, RodModel::bend, scene.motion, edges));

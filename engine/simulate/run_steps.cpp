@@ -72,7 +72,7 @@ Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
 /// Adds the joint of a push to the loaded joints, if it was moved.
 void note_load(EquilibriumPath& path, const preset::Step& step) {
   const Simulation& simulation = path.simulation;
-  const auto joint = joint_of(step, simulation.scene().footprint);
+  const auto joint = joint_named(simulation.scene().footprint, step.joint);
   // a push that failed leaves no constraint
   const auto origin = simulation.constraint_origins.find(joint.value_or(-1));
   if (origin == simulation.constraint_origins.end()) return;
@@ -158,7 +158,7 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
     const preset::Step& step = steps[k];
     const bool one = !step.joint.empty();
     if (one)
-      if (auto joint = joint_of(step, footprint); !joint)
+      if (auto joint = joint_named(footprint, step.joint); !joint)
         return fail(joint.error().fault,
                     fmt::format("[[step]] {} {}", k + 1, joint.error().message));
     if (step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold)

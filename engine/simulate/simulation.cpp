@@ -94,7 +94,8 @@ void Simulation::put_push(record::Frame& frame) const {
   if (origin == constraint_origins.end()) return;
   const Eigen::Vector3d moved = constraint.part(nodes().col(constraint.node) - origin->second);
   frame.depth_mm = moved.norm();
-  const bool any = frame.depth_mm > nearest_mm;
+  // a joint that is held is `nearest_mm` from its origin, to rounding
+  const bool any = frame.depth_mm > 0.5 * nearest_mm;
   frame.force_N = any ? constraint.part(force(constraints_.size() - 1)).dot(moved.normalized()) : 0;
   put_push_errors(frame);
 }
@@ -122,9 +123,10 @@ Energies Simulation::energies() const {
   return shell_->extrapolates() ? extrapolated(fine, shell_->energies(last - 1)) : fine;
 }
 
-bool Simulation::locked() const {
-  const NestedState& state = shell_->state();
-  if (std::abs(state.largest_strain) > scene_->max_strain) return true;
+bool Simulation::locked() const { return locked_beyond(scene_->max_strain); }
+
+bool Simulation::locked_beyond(double strain) const {
+  if (std::abs(shell_->state().largest_strain) > strain) return true;
   if (actuating_ || constraints_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
 }
@@ -148,7 +150,7 @@ std::pair<double, std::string> Simulation::strained() const {
 
 Simulation::Limits Simulation::limits() const {
   constexpr double none = std::numeric_limits<double>::infinity();
-  Limits limits{scene_->limits_strength() ? 1 : none, {}};
+  Limits limits{scene_->max_strain, scene_->limits_strength() ? 1 : none, {}};
   std::ranges::fill(limits.gap_mm, scene_->stops_at_contact ? 0 : -none);
   return limits;
 }
@@ -156,6 +158,7 @@ Simulation::Limits Simulation::limits() const {
 /// Limits for a state that already exceeds those of the scene: its own measures.
 Simulation::Limits Simulation::limits_here() const {
   Limits here = limits();
+  here.strain = std::max(here.strain, std::abs(shell_->state().largest_strain));
   if (scene_->limits_strength()) here.strained = std::max(here.strained, strained().first);
   if (scene_->stops_at_contact)
     for (const record::Contact& contact : contacts().interpenetrations) {
@@ -167,7 +170,7 @@ Simulation::Limits Simulation::limits_here() const {
 
 std::optional<Event> Simulation::exceeded(const Limits& limits) const {
   Event met{Event::Kind::locked, shell_->state().t, {}, {}};
-  if (locked()) return met;
+  if (locked_beyond(limits.strain)) return met;
   met.kind = Event::Kind::overbent;
   if (scene_->limits_strength()) {
     auto [fraction, by] = strained();

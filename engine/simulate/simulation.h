@@ -295,6 +295,8 @@ class Simulation {
   Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
   /// Whether the axial strain has reached its limit.
   bool locked() const;
+  /// Whether the path parameter is that of the scene's motion, not of a drive.
+  bool actuating() const { return actuating_; }
   /// The limit of the scene that the current state exceeds, an event with is_limit(); empty: none.
   std::optional<Event> exceeded_limit() const;
   /// Largest strain of a fibre by bending, dimensionless, on the finest mesh.
@@ -326,16 +328,17 @@ class Simulation {
   double load_step() const;
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
-  /// Measures of the limits: strain over allowed strain, and the least gap of each contact kind,
-  /// mm.
+  /// Measures of the limits: the axial strain, bending strain or utilisation over its limit, and
+  /// the least gap of each contact kind, mm.
   struct Limits {
-    double strained, gap_mm[record::contact_kinds];
+    double strain, strained, gap_mm[record::contact_kinds];
   };
   /// Bending strain and utilisation, each over its limit: the larger of the two, and that limit as
   /// text: "max_utilisation = 0.8".
   std::pair<double, std::string> strained() const;
   Limits limits() const;
   Limits limits_here() const;
+  bool locked_beyond(double strain) const;
   std::optional<Event> exceeded(const Limits& limits) const;
   class Walk;
 
@@ -353,8 +356,8 @@ class Simulation {
   Eigen::Matrix3Xd dragged_;
   double first_stiffness_ = 0;  // stiffness at the start of the last push, N/mm
   Eigen::VectorXd along_;       // direction of its displacements, in the constrained directions
-  bool actuating_ = true;       // the path parameter is that of the scene's motion, not of a drive
-  Effort spent_;                // on meshes that finer ones replaced
+  bool actuating_ = true;
+  Effort spent_;  // on meshes that finer ones replaced
 };
 
 }  // namespace gridshell

@@ -49,7 +49,7 @@ struct Goal {
 };
 
 Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
-  TRY(joint, joint_of(step, simulation.scene().footprint));
+  TRY(joint, joint_named(simulation.scene().footprint, step.joint));
   TRY_DO(not_on_boundary(simulation.scene().footprint, *joint));
   const Eigen::Vector3d at = simulation.nodes().col(*joint);
   const bool constrains = step.kind == preset::StepKind::hold;
@@ -89,7 +89,7 @@ Result<Report> release(Simulation& simulation, const preset::Step& step, const W
   if (step.joint.empty()) {
     for (const Constraint& constraint : simulation.constraints()) joints.push_back(constraint.node);
   } else {
-    TRY(joint, joint_of(step, simulation.scene().footprint));
+    TRY(joint, joint_named(simulation.scene().footprint, step.joint));
     if (std::ranges::any_of(simulation.constraints(), [&](const Constraint& constraint) {
           return constraint.node == *joint;
         }))
@@ -172,14 +172,6 @@ std::string text_of(const preset::Step& step) {
   if (step.what != preset::Released::joints) text += fmt::format(" {}", word_of(step.what));
   if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
   return text;
-}
-
-Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
-  const int joint = step.joint.size() == 2 ? joint_at(footprint, step.joint[0], step.joint[1]) : -1;
-  if (joint < 0)
-    return invalid("joint: got [{}], expected a joint of the footprint",
-                   fmt::join(step.joint, ", "));
-  return joint;
 }
 
 Result<std::vector<FootprintCell>> cells_of(const preset::Step& step, const Footprint& footprint) {

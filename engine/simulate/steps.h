@@ -16,9 +16,6 @@ namespace gridshell::simulate {
 /// A step as text for messages: "push [2, -1]".
 std::string text_of(const preset::Step& step);
 
-/// The joint that a step names. Errors (bad_input): the footprint has no such joint.
-Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
-
 /// The cells that a step names, all if it names none. Errors (bad_input): the footprint has no such
 /// cell.
 Result<std::vector<FootprintCell>> cells_of(const preset::Step& step, const Footprint& footprint);

@@ -40,14 +40,21 @@ Eigen::Matrix3Xd fixed_vectors(const NestedShell& shell, const OfLevel& of_level
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
   const NestedShell& shell = simulation.shell();
   Bolts bolts;
+  std::vector<Eigen::Matrix3Xd> angles;  // of each mesh, in the first row
   const Eigen::Matrix3Xd tangents = fixed_vectors(shell, [&](int level) {
     // the last call, for the finest mesh, sets the result
     bolts = tightened(shell.mesh(level), shell.model(level),
                       shell.state().levels[std::size_t(level)], stiffness);
     std::vector<Eigen::Vector3d> all;
     for (const auto& rods : bolts.rods) all.insert(all.end(), rods.begin(), rods.end());
+    Eigen::Matrix3Xd& angle = angles.emplace_back(Eigen::Matrix3Xd::Zero(3, bolts.rods.size()));
+    for (int joint = 0; joint < angle.cols(); ++joint)
+      if (bolts.rods[std::size_t(joint)].size() == 2) angle(0, joint) = bolts.angle(joint);
     return Eigen::Matrix3Xd(Eigen::Map<const Eigen::Matrix3Xd>(all.data()->data(), 3, all.size()));
   });
+  // the error of bolts that these replace is not in the difference of the meshes
+  const double before = simulation.rods().bolts ? simulation.rods().bolts->angle_error_rad : 0;
+  bolts.angle_error_rad = before + certify_vectors(angles, angles.size() > 1, false).error;
   Eigen::Index column = 0;
   for (auto& rods : bolts.rods)
     for (Eigen::Vector3d& tangent : rods) tangent = tangents.col(column++).normalized();

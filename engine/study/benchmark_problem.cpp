@@ -66,7 +66,7 @@ Result<std::unique_ptr<BenchmarkProblem>> BenchmarkProblem::create(const preset:
     return refused(
         "a study compares methods on shells without [loads] that are supported at their ends "
         "alone");
-  if (scene->drawn_in_space)
+  if (scene->from_drawing)
     return refused("a study compares methods on shells that begin flat or on a net");
   for (RodMaterial& material : scene->rods.materials) material.EA *= EA_scale;
   std::unique_ptr<BenchmarkProblem> made(

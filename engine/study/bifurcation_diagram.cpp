@@ -42,7 +42,7 @@ struct Branch {
 
 Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                     const Watch& watch) {
-  if (scene->drawn_in_space)
+  if (scene->from_drawing)
     return invalid("branches are looked for where a path begins flat or on a net");
   TRY(session, Simulation::open(scene, plan));
   Result<Report> begun = fail(Fault::no_equilibrium, "no buckled state was certified");

@@ -110,7 +110,7 @@ void StateMeasures::put_life(const State& rest, record::StateRow& row, const Wat
   const NestedShell& shell = path_.shell();
   if (path_.begin_at(1, rest, watch).end != Outcome::reached) return;
   const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
-  const double to = nearly_flat && !scene_->drawn_in_space ? std::min(*nearly_flat, 1.0) : 0;
+  const double to = nearly_flat && !scene_->from_drawing ? std::min(*nearly_flat, 1.0) : 0;
   double good = path_.go(to, watch, {.requested = false}).t;
   // the branch ends within one load step of the last state that was reached
   double bad = std::max(to, good - largest_step);

@@ -167,8 +167,10 @@ TEST_CASE("inputs that are no regular files, or too large, are refused at once")
 
 TEST_CASE("frames of a run that was cut short are drawn, and it says that it is unfinished") {
   const Bench bench(small);
-  bench.good("movie small.toml -o whole");
+  bench.good("movie small.toml --set movie.title_s=0.1 --set movie.poster=true -o whole");
   cut_short(bench.at / "whole", bench.at / "r.partial-7", 3);
+  for (const char* name : {"title.png", "poster.png"})
+    fs::copy_file(bench.at / "whole" / name, bench.at / "r.partial-7" / name);
   const auto drawn = bench.good("render r.partial-7");
   CHECK(drawn.err.starts_with("'r.partial-7' is not finished: 3 frames, up to progress 0.667\n"));
   const auto pictures = files_under(bench.at / "r.partial-7/frames", ".png");

@@ -191,13 +191,26 @@ TEST_CASE("what appears under the final name meanwhile is not destroyed") {
     REQUIRE_FALSE(staged.commit());
     CHECK(read_file(run / "notes.txt").value() == "mine");
   }
-  SECTION("another run or an empty folder, which is replaced") {
-    if (GENERATE(true, false)) make_run(run);
+  SECTION("an empty folder, which is replaced") {
     REQUIRE(make_folder(run));
     REQUIRE(staged.commit());
     CHECK(read_file(run / "summary.json").value() == "new");
     CHECK(others(folder).empty());
   }
+}
+
+TEST_CASE("of two programs that write one folder the one that ends later replaces nothing") {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  if (GENERATE(false, true)) make_run(run);
+  auto first = staged_at(run), second = staged_at(run);
+  REQUIRE(write_file(first.path() / "summary.json", "first"));
+  REQUIRE(write_file(second.path() / "summary.json", "second"));
+  REQUIRE(first.commit());
+  CHECK_THAT(refusal(second.commit(), Fault::io), Catch::Contains("another command wrote it"));
+  CHECK(read_file(run / "summary.json").value() == "first");
+  second.keep();
+  CHECK(read_file(second.path() / "summary.json").value() == "second");
 }
 
 TEST_CASE("a folder that was left behind is neither taken over nor lost") {

@@ -182,7 +182,7 @@ def test_shapes_fit_each_other(formed):
 
 
 @pytest.mark.parametrize("wrong, said", [
-    (lambda s: s.push((40, 0), 1), "expected a joint of the footprint"),
+    (lambda s: s.push((40, 0), 1), r"expected \[i, j\] of one of"),
     (lambda s: s.push((0, 0, 1), 1), r"expected \[i, j\]"),
     (lambda s: s.push((0, 0.5), 1), "joint"),
     (lambda s: s.push((0, 0)), "to_mm"),

@@ -63,6 +63,10 @@ TEST_CASE("a state next to its own image is reported as doubtful", "[standard]")
     if (tolerance > 1e-4)
       CHECK_THAT(s.doubt, Catch::Contains("mm from its own image under a symmetry of the shell"));
   }
+  // a push begins on one of the states
+  p.accuracy.tolerance = 1e-3;
+  p.indentation.depth_mm = 0.05;
+  CHECK_THAT(run(p).summary.doubt, Catch::StartsWith("of the actuation: the state lies"));
 }
 
 TEST_CASE("symmetric states, and those that are clearly not, are not doubtful") {
@@ -143,4 +147,45 @@ TEST_CASE("a straight piece of a coil winds up to its natural shape, however far
   CHECK(last_frame(wound).energies.total() < 1e-9);
   // a circle of 33.3 mm
   CHECK(last_frame(wound).nodes.colwise().norm().maxCoeff() < 2 / 0.03 + 0.1);
+}
+
+TEST_CASE(
+    "rods drawn bent begin in equilibrium, and the side and branch are the seed's on all meshes") {
+  // nine joints off the crossings of six rods, whose ends move inwards; straightened, the rods are
+  // taut in the plane
+  preset::NetworkData file;
+  file.points = {{-16.9, -23.8}, {-19.4, -0.9}, {-20.7, 19.7}, {-3.0, -20.3}, {-1.3, 5.0},
+                 {0.3, 19.5},    {19.6, -21.0}, {18.4, -0.6},  {20.7, 19.6}};
+  for (const double across : {-20.0, 0.0, 20.0})
+    file.points.insert(file.points.end(), {{-35, across}, {36.5, across}});
+  for (const double across : {-20.0, 0.0, 20.0})
+    file.points.insert(file.points.end(), {{across, -33.5}, {across, 35}});
+  for (const int k : {0, 1, 2}) {
+    file.rods.push_back({9 + 2 * k, k, 3 + k, 6 + k, 10 + 2 * k});
+    file.rods.push_back({15 + 2 * k, 3 * k, 3 * k + 1, 3 * k + 2, 16 + 2 * k});
+  }
+  for (int joint = 0; joint < 9; ++joint) file.joint_laws.push_back({double(joint), 0, -1});
+  preset::Preset p = network(file, 8);
+  p.rod.shear_GPa = 31;
+  p.actuation.scale = 0.9;
+  const auto coarse = run_to_end(p);
+  p.accuracy.edges_per_segment = 16;
+  const auto fine = run_to_end(p);
+  p.accuracy.edges_per_segment = 32;
+  p.actuation.seed = preset::Seed::down;
+  const auto other_side = run_to_end(p);
+  for (const auto* one : {&coarse, &fine, &other_side}) {
+    const record::Frame& drawn = one->trajectory.frames.front();
+    CHECK(drawn.residual_N < 1e-8);
+    CHECK(drawn.negative_pivots == 0);
+    CHECK(drawn.height_mm == Approx(0).margin(1e-6));
+    CHECK(drawn.energies[Term::stretch] > 0.5);
+    const auto energy = [](const auto& outcome) { return last_frame(outcome).energies.total(); };
+    CHECK(std::abs(energy(*one) - energy(fine)) <
+          last_frame(*one).energy_error_mJ + last_frame(fine).energy_error_mJ);
+  }
+  const auto middle = [](const auto& outcome) { return last_frame(outcome).nodes(2, 4); };
+  CHECK(middle(coarse) > 10);
+  CHECK(middle(fine) > 10);
+  CHECK(middle(other_side) < -10);
 }

@@ -262,6 +262,19 @@ TEST_CASE("forces and energies are as exact as they say where loads act and rods
   check_against_finer(p, 1e-4);
 }
 
+TEST_CASE("energies are as exact as they say where ends are clamped") {
+  preset::Preset p = circle(4, 42.2, 0.655 * 42.2, 4);
+  p.ends.kind = preset::EndKind::tangent;
+  const auto frames_to = [&](double tolerance) {
+    p.accuracy.tolerance = tolerance;
+    return run_to_end(p).trajectory.frames;
+  };
+  const auto rough = frames_to(1e-3), fine = frames_to(1e-5);
+  for (std::size_t k = 1; k < rough.size(); ++k)
+    CHECK(std::abs(rough[k].energies.total() - fine[k].energies.total()) <
+          rough[k].energy_error_mJ + fine[k].energy_error_mJ);
+}
+
 TEST_CASE("the curve of a push lies within its error, and its stiffness is its slope",
           "[standard]") {
   preset::Preset p = on_net(preset::NetKind::sphere, 60);

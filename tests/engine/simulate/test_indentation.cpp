@@ -266,7 +266,8 @@ TEST_CASE("a ring is pushed at any of its joints, wherever its drawing begins") 
 TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};
-  CHECK_THAT(refused_run(p), Catch::Contains("expected a joint of the footprint"));
+  CHECK_THAT(refused_run(p),
+             Catch::Contains("[indentation] joint: got [40, 0], expected [i, j] of one of"));
 }
 
 TEST_CASE("pushes on the twist model are those of the bend model, to a millionth of rho") {

@@ -35,7 +35,7 @@ TEST_CASE(
   preset::NetworkData raised = cross(a, a);
   for (auto& point : raised.points) point[2] = 7;
   const auto scene = value_of(scene_of(network(raised, 8)));
-  CHECK_FALSE(scene.drawn_in_space);
+  CHECK_FALSE(scene.from_drawing);
   CHECK(mesh_rods(scene.footprint, 8).height.size() == 0);
 }
 

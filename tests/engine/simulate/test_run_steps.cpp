@@ -99,6 +99,27 @@ TEST_CASE("a push has the requested depth, however many meshes follow") {
   }
 }
 
+TEST_CASE(
+    "a joint that is held bears the force that holds it, whatever the rounding of its place") {
+  preset::Preset p = circle(6, 69.5, 0.936 * 69.5, 5);
+  p.actuation.seed = preset::Seed::down;
+  p.rod.shear_GPa = 31;
+  p.rod.width_mm = 0.59;
+  p.rod.thickness_mm = 0.33;
+  p.joints.shear_Nmm = 2.065;
+  p.joints.twist_Nmm = 0.024;
+  p.ends.kind = preset::EndKind::clamped;
+  preset::Step tighten = of(StepKind::tighten), hold = of(StepKind::hold);
+  tighten.stiffness_Nmm = 5;
+  hold.joint = {1, -1};
+  p.step = {tighten, hold, move(1.199)};
+  for (const double tolerance : {1e-2, 1e-3}) {
+    p.accuracy.tolerance = tolerance;
+    const record::Frame held = run_to_end(p).trajectory.frames.back();
+    CHECK(held.force_N == Approx(2.1537).margin(held.push_error_N + 0.0012));
+  }
+}
+
 TEST_CASE("frames only sample the steps, which end where they end") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};

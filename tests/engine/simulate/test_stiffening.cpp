@@ -196,6 +196,25 @@ TEST_CASE("errors are right after bolts have fixed a shape, which stays where it
   }
 }
 
+TEST_CASE("angles of tightened joints have the error that they had when they were tightened") {
+  preset::Preset p = circle(6, 66, 0.8 * 66, 3);
+  p.rod.shear_GPa = 31;
+  p.rod.width_mm = 1;
+  p.rod.thickness_mm = 0.25;
+  p.step = {step(StepKind::tighten)};
+  const auto tightened_to = [&](double tolerance) {
+    p.accuracy.tolerance = tolerance;
+    return last_frame(run_to_end(p));
+  };
+  const record::Frame rough = tightened_to(1e-3), fine = tightened_to(1e-6);
+  const double error = rough.one_angle_error_deg + fine.one_angle_error_deg;
+  CHECK(error < 1);
+  CHECK(std::abs(rough.joint_angle_deg - fine.joint_angle_deg) <
+        rough.joint_angle_error_deg + fine.joint_angle_error_deg);
+  CHECK(std::abs(rough.largest_joint_angle_deg - fine.largest_joint_angle_deg) < error);
+  CHECK(std::abs(rough.smallest_joint_angle_deg - fine.smallest_joint_angle_deg) < error);
+}
+
 TEST_CASE("a pushed joint keeps its depth as braces are added") {
   preset::Preset p = small_shell();
   Simulation simulation = formed(p, plan_levels(1e-4));
