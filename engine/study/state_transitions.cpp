@@ -241,7 +241,7 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
   std::vector<record::Barrier> all;
   for (const auto& crossing : found)
     if (crossing) all.push_back(barrier_of(*crossing));
-  library.search.paths_followed = int(pairs.size());
+  library.search.paths_followed_for_barriers = int(pairs.size());
   library.search.passes_found = int(all.size());
   for (const record::Barrier& one : all)
     for (const auto& [state, height] :
