@@ -110,10 +110,9 @@ class Crossings {
       if (!rest) return std::nullopt;
       target = std::move(*rest);
     }
-    PassOptions options;
-    options.step_mm = step_over_d * spacing_;
     Crossing crossing;
-    crossing.pass = mountain_pass(system, rest_of(pair.from), target, options, watch);
+    crossing.pass =
+        mountain_pass(system, rest_of(pair.from), target, step_over_d * spacing_, watch);
     if (crossing.pass.outcome != Outcome::reached) return std::nullopt;
     const bool back =
         descend(crossing.pass, BranchSide::against, crossing.from, crossing.from_mJ, watch);
