@@ -88,7 +88,6 @@ template Argument CommandArguments::option(const std::string&, double&, const st
 Argument CommandArguments::flag(const std::string& names, bool& value, const std::string& meaning) {
   return command_->add_flag(names, value, meaning);
 }
-Argument CommandArguments::declared(const std::string& name) { return command_->get_option(name); }
 void CommandArguments::footer(const std::string& text) { command_->footer(text); }
 
 CommandLine::CommandLine()

@@ -55,8 +55,6 @@ class CommandArguments {
   template <class Value>
   Argument option(const std::string& names, Value& value, const std::string& meaning);
   Argument flag(const std::string& names, bool& value, const std::string& meaning);
-  /// Returns the option `name`, which was declared before.
-  Argument declared(const std::string& name);
   /// Sets the last paragraph of the help.
   void footer(const std::string& text);
 

@@ -264,7 +264,6 @@ void restore(const ViewOptions& options, ViewerState& viewer) {
       fmt::print(stderr, "{}: {}\n", options.workspace.string(), taken.error().message);
 }
 
-/// Saves the workspace.
 void save_workspace(const ViewOptions& options, const ViewerState& viewer) {
   if (options.workspace.empty() || !viewer.shell->any()) return;
   const auto saved = write_with_folder(options.workspace, workspace_text(viewer));

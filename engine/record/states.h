@@ -48,7 +48,6 @@ struct StateName {
   std::string text() const;
 };
 
-/// One state.
 struct StateRow {
   int state = 0;  ///< from 1, in the order of energy
   StateClass kind = StateClass::other;
