@@ -14,7 +14,6 @@
 #include <thread>
 #include <tuple>
 
-#include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"

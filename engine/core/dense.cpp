@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <cmath>
 #include <utility>
 
 namespace gridshell {

@@ -1,5 +1,4 @@
 // Joints of rods that cross: what they add to a model, bolts, and torques.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -2,9 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "engine/core/dense.h"
 #include "engine/elastic/along_rods.h"

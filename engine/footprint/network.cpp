@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <set>
 #include <tuple>
 #include <utility>
 

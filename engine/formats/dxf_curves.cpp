@@ -1,6 +1,5 @@
 #include "engine/formats/dxf_curves.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

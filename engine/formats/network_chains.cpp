@@ -1,8 +1,5 @@
 // Joins lines of a drawing that meet end to end to rods, and removes points that are not needed.
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>

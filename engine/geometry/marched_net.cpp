@@ -1,7 +1,6 @@
 #include "engine/geometry/marched_net.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/algorithms.h"

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "engine/solve/equilibrium.h"
-#include "engine/solve/newton.h"
 
 namespace gridshell {
 namespace {
