@@ -10,6 +10,7 @@
 
 #include "app/cli/console.h"
 #include "app/cli/staged_folder.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/movie/encode.h"
@@ -99,12 +100,12 @@ Result<void> attempt(const Work& work, const fs::path& partial, Progress& progre
 
 /// A text that lists the complete files of a folder.
 std::string whole_files(const Left& left, const std::string& name) {
-  const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
+  const auto whole = counted(left.runs, "run") + " and " + counted(left.pictures, "picture");
   if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
   std::string others;
   if (left.runs + left.pictures > 0) others = ", " + whole;
   return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
-                     count_text(left.frames, "frame"), others, name,
+                     counted(left.frames, "frame"), others, name,
                      render::shell_line({"gridshell", "render", name}));
 }
 

@@ -195,7 +195,7 @@ std::string reported(const record::SweepTable& table) {
       limits.insert(limit);
     }
   }
-  auto text = fmt::format("{}: {} done", count_text(table.rows.size(), "point"), done);
+  auto text = fmt::format("{}: {} done", counted(table.rows.size(), "point"), done);
   if (limited > 0)
     text += fmt::format(", {} of them ended early ({})", limited, fmt::join(limits, ", "));
   if (unstable > 0) text += fmt::format(", {} of them not stable", unstable);
