@@ -72,30 +72,22 @@ Argument Argument::one_each_time() {
   return option_->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-Argument CommandArguments::option(const std::string& names, std::string& value,
+template <class Value>
+Argument CommandArguments::option(const std::string& names, Value& value,
                                   const std::string& meaning) {
   return command_->add_option(names, value, meaning);
 }
-Argument CommandArguments::option(const std::string& names, std::filesystem::path& value,
-                                  const std::string& meaning) {
-  return command_->add_option(names, value, meaning);
-}
-Argument CommandArguments::option(const std::string& names, std::vector<std::string>& value,
-                                  const std::string& meaning) {
-  return command_->add_option(names, value, meaning);
-}
-Argument CommandArguments::option(const std::string& names, int& value,
-                                  const std::string& meaning) {
-  return command_->add_option(names, value, meaning);
-}
-Argument CommandArguments::option(const std::string& names, double& value,
-                                  const std::string& meaning) {
-  return command_->add_option(names, value, meaning);
-}
+template Argument CommandArguments::option(const std::string&, std::string&, const std::string&);
+template Argument CommandArguments::option(const std::string&, std::filesystem::path&,
+                                           const std::string&);
+template Argument CommandArguments::option(const std::string&, std::vector<std::string>&,
+                                           const std::string&);
+template Argument CommandArguments::option(const std::string&, int&, const std::string&);
+template Argument CommandArguments::option(const std::string&, double&, const std::string&);
+
 Argument CommandArguments::flag(const std::string& names, bool& value, const std::string& meaning) {
   return command_->add_flag(names, value, meaning);
 }
-Argument CommandArguments::declared(const std::string& name) { return command_->get_option(name); }
 void CommandArguments::footer(const std::string& text) { command_->footer(text); }
 
 CommandLine::CommandLine()

@@ -51,16 +51,10 @@ class Argument {
 class CommandArguments {
  public:
   CommandArguments(CLI::App* command) : command_(command) {}
-  Argument option(const std::string& names, std::string& value, const std::string& meaning);
-  Argument option(const std::string& names, std::filesystem::path& value,
-                  const std::string& meaning);
-  Argument option(const std::string& names, std::vector<std::string>& value,
-                  const std::string& meaning);
-  Argument option(const std::string& names, int& value, const std::string& meaning);
-  Argument option(const std::string& names, double& value, const std::string& meaning);
+  /// `value`: a text or a list of texts, a path, an int or a double.
+  template <class Value>
+  Argument option(const std::string& names, Value& value, const std::string& meaning);
   Argument flag(const std::string& names, bool& value, const std::string& meaning);
-  /// Returns the option `name`, which was declared before.
-  Argument declared(const std::string& name);
   /// Sets the last paragraph of the help.
   void footer(const std::string& text);
 

@@ -13,7 +13,6 @@
 #include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 #include "render/gl/context.h"
 
 namespace gridshell::app {

@@ -71,9 +71,4 @@ bool flush_stdout(int failed_before = 0);
 /// The exit code of a command that only prints. Errors: io if stdout was closed from the start.
 Result<int> printed();
 
-/// "1 frame", "2 frames"
-inline std::string count_text(std::size_t count, const std::string& word) {
-  return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
-}
-
 }  // namespace gridshell::app

@@ -1,6 +1,7 @@
 #include "app/cli/delivery.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "app/cli/console.h"
 #include "app/cli/staged_folder.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/movie/encode.h"
@@ -100,9 +102,9 @@ Result<void> attempt(const Work& work, const fs::path& partial, Progress& progre
 /// A text that lists the complete files of a folder.
 std::string whole_files(const Left& left, const std::string& name) {
   std::vector<std::string> found;
-  if (left.frames > 0) found.push_back(count_text(left.frames, "frame") + " of an unfinished run");
-  if (left.runs > 0) found.push_back(count_text(left.runs, "finished run"));
-  if (left.pictures > 0) found.push_back(count_text(left.pictures, "picture"));
+  if (left.frames > 0) found.push_back(counted(left.frames, "frame") + " of an unfinished run");
+  if (left.runs > 0) found.push_back(counted(left.runs, "finished run"));
+  if (left.pictures > 0) found.push_back(counted(left.pictures, "picture"));
   auto text = fmt::format("complete in '{}': {}", name, fmt::join(found, ", "));
   if (left.runs + left.frames > 0)
     text += "; this draws all frames:\n  " + render::shell_line({"gridshell", "render", name});

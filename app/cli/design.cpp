@@ -142,12 +142,7 @@ std::string design_csv(const DesignResult& found, const preset::Points& table) {
 void put_name(std::string& text, const std::string& section, const std::string& file) {
   const std::string none = "\ntable = []";
   const auto at = text.find(none, text.find("\n[" + section + "]"));
-  std::string name;
-  for (const char c : file) {
-    if (c == '"' || c == '\\') name += '\\';
-    name += c;
-  }
-  text.replace(at, none.size(), "\ntable = \"" + name + "\"");
+  text.replace(at, none.size(), "\ntable = " + line_of(Json(file)));
 }
 
 /// The text of a preset whose tables are in separate files.

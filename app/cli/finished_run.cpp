@@ -351,7 +351,7 @@ std::string progress_text(const Run& run) {
   const record::FrameList& frames = run.trajectory.frames;
   double furthest = 0;
   for (const record::Frame& frame : frames) furthest = std::max(furthest, frame.progress);
-  return fmt::format("{}, up to progress {:.3g}", count_text(frames.size(), "frame"), furthest);
+  return fmt::format("{}, up to progress {:.3g}", counted(frames.size(), "frame"), furthest);
 }
 
 // `gridshell render RUN`: pictures of a finished run, without simulating again.

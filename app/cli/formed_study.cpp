@@ -31,11 +31,11 @@ namespace {
 /// Result of the study of one run's shell.
 struct FormedStudy {
   std::vector<std::pair<std::string, std::string>> files;  ///< names and texts
-  std::string text;                                        ///< for the terminal, indented lines
+  std::string text = {};                                   ///< for the terminal, indented lines
   record::Trajectory state;                                ///< the shell, one frame
   record::Summary summary;
-  record::FrameList moves;            ///< displaced shells (moved_by()), a still for each
-  std::vector<std::string> captions;  ///< of the stills, marked text
+  record::FrameList moves = {};            ///< displaced shells (moved_by()), a still for each
+  std::vector<std::string> captions = {};  ///< of the stills, marked text
   /// Draws further pictures; may be empty.
   std::function<Result<void>(render::Renderer&, const fs::path& folder, Progress&)> draw_more = {};
 };
@@ -151,14 +151,11 @@ std::string json_text(const LoadStudy& found) {
 
 Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, Watch& watch) {
   TRY(found, study::load_study(preset, imperfections, watch));
-  FormedStudy all{{{"load.csv", record::csv_table(found->points)},
-                   {"cases.csv", record::csv_table(found->cases)},
-                   {"load.json", json_text(*found)}},
-                  "",
-                  found->state,
-                  found->summary,
-                  {},
-                  {}};
+  FormedStudy all{.files = {{"load.csv", record::csv_table(found->points)},
+                            {"cases.csv", record::csv_table(found->cases)},
+                            {"load.json", json_text(*found)}},
+                  .state = found->state,
+                  .summary = found->summary};
   for (std::size_t k = 0; k < found->cases.size(); ++k) {
     const record::LoadRow& row = found->cases[k];
     all.text += "  " + sentence_of(row) + "\n";
@@ -246,12 +243,9 @@ Result<FormedStudy> find_modes(const preset::Preset& preset, const ModesOptions&
   TRY(of, study::vibrations_of(preset, options.count, watch));
   const auto found = std::make_shared<const Vibrations>(std::move(*of));
   FormedStudy all{
-      {{"modes.csv", record::csv_table(found->modes)}, {"shapes.csv", shapes_csv(*found)}},
-      "",
-      found->state,
-      found->summary,
-      {},
-      {}};
+      .files = {{"modes.csv", record::csv_table(found->modes)}, {"shapes.csv", shapes_csv(*found)}},
+      .state = found->state,
+      .summary = found->summary};
   for (std::size_t k = 0; k < found->modes.size(); ++k) {
     all.text += fmt::format("  {:>3}  {}\n", found->modes[k].mode, frequency_text(found->modes[k]));
     all.moves.push_back(moved_by(found->state, found->shapes[k], 1, int(k)));

@@ -42,7 +42,6 @@ using SharedColourBar = std::optional<render::ColourBar>;
 /// For each run the common colour bar of all runs that are coloured by the same quantity.
 std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
-/// The style of the stills or of the movie of a preset.
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 
 /// The joints that were measured on a real shell, [figure] scan: 3 x n, mm.

@@ -12,7 +12,6 @@
 namespace gridshell::app {
 namespace {
 
-/// The entries of a list, each as a JSON object.
 template <class List, class Object>
 Json array_of(const List& list, const Object& object) {
   Json all = Json::array();

@@ -153,9 +153,11 @@ std::string found_text(const record::StateTables& states) {
         "{} states in all\n",
         search.confined_at_rest, search.confined_trials,
         std::ranges::count(states.rows, 0, &StateRow::count), states.rows.size());
-  if (search.finer_lost + search.finer_merged > 0)
-    text += fmt::format("  of {} on {} edges per segment, finer meshes lose {} and merge {}\n",
-                        search.found, search.judged_edges, search.finer_lost, search.finer_merged);
+  if (search.states_that_finer_meshes_lose + search.states_that_finer_meshes_merge > 0)
+    text +=
+        fmt::format("  of {} on {} edges per segment, finer meshes lose {} and merge {}\n",
+                    search.states_found, search.judged_edges_per_segment,
+                    search.states_that_finer_meshes_lose, search.states_that_finer_meshes_merge);
   for (const auto& [why, count] : search.ended_otherwise)
     text += fmt::format("  {} trials: {}\n", count, why);
   const auto shown = record::states_to_draw(states.rows, 4);
@@ -170,14 +172,15 @@ std::string found_text(const record::StateTables& states) {
                     row.name(), row.group, dome_text(row), row.energies[Term::bend], row.height_mm,
                     row.count, search.at_rest);
   }
-  if (search.paths_followed > 0)
+  if (search.paths_followed_for_barriers > 0)
     text += fmt::format("  barriers: {} saddles found on {} paths from state to state\n",
-                        search.passes_found, search.paths_followed);
+                        search.passes_found, search.paths_followed_for_barriers);
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0)
       text += fmt::format(
           "  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges per segment)\n",
-          one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ, search.judged_edges);
+          one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ,
+          search.judged_edges_per_segment);
   return text;
 }
 

@@ -195,7 +195,7 @@ std::string reported(const record::SweepTable& table) {
       limits.insert(limit);
     }
   }
-  auto text = fmt::format("{}: {} done", count_text(table.rows.size(), "point"), done);
+  auto text = fmt::format("{}: {} done", counted(table.rows.size(), "point"), done);
   if (limited > 0)
     text += fmt::format(", {} of them ended early ({})", limited, fmt::join(limits, ", "));
   if (unstable > 0) text += fmt::format(", {} of them not stable", unstable);
@@ -218,9 +218,9 @@ std::string regions_text(const SweepJob& work, const record::SweepTable& table) 
           "end; several states at {}, broken symmetry at {}; i at {}, ii at {}, iii at {}, iv at "
           "{}; more states than the paper drew at {} ({})",
           run.name, run.name.empty() ? "" : ", ", record::name_of(region), region.points,
-          region.dome_alone, region.met_first_order, region.at_rest, region.several, region.broken,
-          with(StateClass::i), with(StateClass::ii), with(StateClass::iii), with(StateClass::iv),
-          region.with_more, region.more_states);
+          region.first_order_alone, region.met_first_order, region.at_rest, region.several_states,
+          region.symmetry_broken, with(StateClass::i), with(StateClass::ii), with(StateClass::iii),
+          with(StateClass::iv), region.with_more_than_paper, region.states_more);
     }
   return text;
 }

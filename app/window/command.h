@@ -14,7 +14,6 @@ namespace gridshell::window {
 /// The steps that were done to a shell, in order. Copies point to the same steps.
 using StepHistory = std::vector<std::shared_ptr<const preset::Step>>;
 
-/// The steps as a preset has them.
 std::vector<preset::Step> steps_of(const StepHistory& history);
 
 // The edits of a shell. The engine's thread executes one command after the other.

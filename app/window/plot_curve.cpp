@@ -9,7 +9,6 @@
 #include <string_view>
 #include <utility>
 
-#include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
 #include "render/movie/frame_overlay.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/dense.h"
 #include "render/canvas/text.h"
 #include "render/gl/laths.h"
 #include "render/movie/frame_overlay.h"
@@ -206,10 +207,9 @@ std::string text_of_measure(const ShellView& shell, const std::vector<int>& join
     return shell.frame.nodes.col(joints[to]) - shell.frame.nodes.col(joints[from]);
   };
   if (joints.size() < 2) return "";
-  if (joints.size() > 2) {
-    const Eigen::Vector3d a = between(1, 0), b = between(1, 2);
-    return fmt::format("{:.2f}°", 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b)));
-  }
+  if (joints.size() > 2)
+    return fmt::format("{:.2f}°",
+                       180 / std::numbers::pi * angle_between(between(1, 0), between(1, 2)));
   std::string text = fmt::format("{:.2f} mm", between(0, 1).norm());
   for (const std::vector<int>& rod : shell.layout->rods)
     if (const auto along = along_rod(shell, rod, joints[0], joints[1]))

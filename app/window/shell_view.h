@@ -41,7 +41,6 @@ std::string text_of_events(const std::vector<Event>& events);
 /// "124.2 to 122.9" for an interval, one number for a position; `shown` converts positions.
 std::string text_of_range(const PathMark& mark, const std::function<double(double)>& shown);
 
-/// A constrained joint.
 struct ConstrainedJoint {
   int joint = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();   ///< its reaction

@@ -14,7 +14,6 @@
 #include <thread>
 #include <tuple>
 
-#include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
@@ -264,7 +263,6 @@ void restore(const ViewOptions& options, ViewerState& viewer) {
       fmt::print(stderr, "{}: {}\n", options.workspace.string(), taken.error().message);
 }
 
-/// Saves the workspace.
 void save_workspace(const ViewOptions& options, const ViewerState& viewer) {
   if (options.workspace.empty() || !viewer.shell->any()) return;
   const auto saved = write_with_folder(options.workspace, workspace_text(viewer));

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <cmath>
+#include <utility>
 
 namespace gridshell {
 
@@ -60,6 +60,27 @@ Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector
   turn.w() = 0.5 * s;
   turn.vec() = a.cross(b) / s;
   return turn;
+}
+
+Chains turn_to_one_side(const Chains& chains, std::vector<Eigen::Vector3d>& normals) {
+  Chains neighbours(normals.size()), pieces;
+  for (const auto& chain : chains)
+    for (std::size_t k = 1; k < chain.size(); ++k) {
+      neighbours[chain[k - 1]].push_back(chain[k]);
+      neighbours[chain[k]].push_back(chain[k - 1]);
+    }
+  std::vector<char> seen(normals.size(), 0);
+  for (std::size_t first = 0; first < normals.size(); ++first) {
+    if (std::exchange(seen[first], 1)) continue;
+    auto& piece = pieces.emplace_back(1, first);
+    for (std::size_t k = 0; k < piece.size(); ++k)
+      for (const std::size_t next : neighbours[piece[k]]) {
+        if (std::exchange(seen[next], 1)) continue;
+        if (normals[next].dot(normals[piece[k]]) < 0) normals[next] *= -1;
+        piece.push_back(next);
+      }
+  }
+  return pieces;
 }
 
 void solve_tridiagonal(const Eigen::VectorXd& lower, Eigen::VectorXd diagonal,

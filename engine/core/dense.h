@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <vector>
 
 namespace gridshell {
@@ -67,5 +68,15 @@ Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t);
 
 /// The shortest rotation that takes the direction of `from` to that of `to`.
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+/// The angle between two vectors, 0 to pi; accurate near both.
+inline double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+using Chains = std::vector<std::vector<std::size_t>>;
+/// Inverts normals so that those of neighbours in a chain of their indices have a positive scalar
+/// product. Returns the pieces in which chains connect them.
+Chains turn_to_one_side(const Chains& chains, std::vector<Eigen::Vector3d>& normals);
 
 }  // namespace gridshell

@@ -2,7 +2,6 @@
 
 #include "engine/core/try.h"
 #include "engine/elastic/edge_energies.h"
-#include "engine/elastic/model.h"
 #include "engine/elastic/state.h"
 #include "engine/solve/eigenmodes.h"
 

@@ -238,9 +238,7 @@ double DesignVariables::largest_turn_deg(const Eigen::VectorXd& q) const {
   const ShellEnds ends = ends_at(q);
   double largest = 0;
   for (Eigen::Index k = 0; k < ends.direction.cols(); ++k)
-    largest =
-        std::max(largest, std::atan2(ends.direction.col(k).cross(begin_.direction.col(k)).norm(),
-                                     ends.direction.col(k).dot(begin_.direction.col(k))));
+    largest = std::max(largest, angle_between(ends.direction.col(k), begin_.direction.col(k)));
   return largest * 180 / M_PI;
 }
 

@@ -3,7 +3,6 @@
 #include "engine/elastic/assembly.h"
 
 #include <cmath>
-#include <type_traits>
 
 #include "engine/core/block3.h"
 #include "engine/elastic/along_rods.h"

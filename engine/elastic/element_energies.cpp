@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <complex>
+#include <cmath>
 
 namespace gridshell {
 

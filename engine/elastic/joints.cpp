@@ -1,10 +1,10 @@
 // Joints of rods that cross: what they add to a model, bolts, and torques.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
+#include "engine/core/dense.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
@@ -26,10 +26,6 @@ void release_spin(Model& model, int rod) {
   if (fixed_spin < 0) return;
   const int component = model.spin[std::size_t(std::exchange(fixed_spin, -1))];
   model.fixed[std::size_t(component / 3)] &= (unsigned char)~(1 << component % 3);
-}
-
-double turn_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 }  // namespace
@@ -112,7 +108,7 @@ std::array<int, 4> nodes_of(const ModelLink& link, const Model& model) {
 
 double Bolts::angle(int joint) const {
   const auto& [first, second] = std::pair(rods[std::size_t(joint)][0], rods[std::size_t(joint)][1]);
-  return (closed.contains(joint) ? -1 : 1) * turn_between(first, second);
+  return (closed.contains(joint) ? -1 : 1) * angle_between(first, second);
 }
 
 int Bolts::joints() const {
@@ -125,7 +121,7 @@ JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double fraction, 
   };
   const auto& tangents = rods[std::size_t(joint)];
   const double tightened_angle =
-      tangents.size() == 2 ? angle(joint) : turn_between(tangents[k], tangents[m]);
+      tangents.size() == 2 ? angle(joint) : angle_between(tangents[k], tangents[m]);
   JointAngle law{fraction * std::min(stiffness_Nmm, most), at_joint(opened) + tightened_angle,
                  at_joint(opening), joint};
   if (mean) law.stiffness = 0, law.weight = 1.0 / joints();

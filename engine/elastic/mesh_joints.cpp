@@ -2,10 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <tuple>
-#include <utility>
 
+#include "engine/core/dense.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/model.h"
 
@@ -28,10 +27,6 @@ Crossing crossing(const RodMesh& mesh, const std::vector<RodAt>& rods, int joint
     return springs && rod > 0 ? mesh.nodes() + joint : rods[rod].node;
   };
   return {rods[k].rod, node(k), rods[m].rod, node(m)};
-}
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// +1 if the direction of the first rod x that of the second is along the normal, else -1.
@@ -97,7 +92,6 @@ Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
 std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& crossings) {
   std::vector<Eigen::Vector3d> normals(crossings.size(), Eigen::Vector3d::UnitZ());
   if (mesh.height.size() == 0) return normals;
-  std::vector<std::vector<int>> neighbours(crossings.size());
   for (std::size_t joint = 0; joint < crossings.size(); ++joint) {
     std::vector<Eigen::Vector3d> across;
     each_two(crossings[joint].size(), [&](std::size_t k, std::size_t m, double) {
@@ -109,33 +103,19 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
     for (const Eigen::Vector3d& one : across) sum += one.dot(*longest) < 0 ? -one : one;
     normals[joint] = sum.norm() > 1e-6 ? sum.normalized() : Eigen::Vector3d(0, 0, 0);
   }
+  Chains chains;
   for (const std::vector<int>& rod : mesh.rods) {
-    int before = -1;
-    for (const int node : rod) {
-      const int joint = mesh.joint_of(node);
-      if (joint < 0 || normals[std::size_t(joint)].isZero(0)) continue;
-      if (before >= 0) {
-        neighbours[std::size_t(before)].push_back(joint);
-        neighbours[std::size_t(joint)].push_back(before);
-      }
-      before = joint;
-    }
+    chains.emplace_back();
+    for (const int node : rod)
+      if (const auto joint = std::size_t(mesh.joint_of(node));
+          mesh.joint_of(node) >= 0 && !normals[joint].isZero(0))
+        chains.back().push_back(joint);
   }
-  std::vector<char> seen(crossings.size(), 0);
-  for (std::size_t first = 0; first < crossings.size(); ++first) {
-    if (std::exchange(seen[first], 1)) continue;
-    std::vector<int> piece{int(first)};
-    for (std::size_t k = 0; k < piece.size(); ++k)
-      for (const int next : neighbours[std::size_t(piece[k])]) {
-        if (std::exchange(seen[std::size_t(next)], 1)) continue;
-        Eigen::Vector3d& normal = normals[std::size_t(next)];
-        if (normal.dot(normals[std::size_t(piece[k])]) < 0) normal *= -1;
-        piece.push_back(next);
-      }
+  for (const auto& piece : turn_to_one_side(chains, normals)) {
     double up = 0;
-    for (const int joint : piece) up += normals[std::size_t(joint)].z();
+    for (const std::size_t joint : piece) up += normals[joint].z();
     if (up < 0)
-      for (const int joint : piece) normals[std::size_t(joint)] *= -1;
+      for (const std::size_t joint : piece) normals[joint] *= -1;
   }
   return normals;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 
 namespace gridshell {
@@ -109,10 +109,6 @@ Result<Eigen::Vector2d> shift_of(const PositionedBlocks& positioned, const Join&
   return shift;
 }
 
-double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-}
-
 /// Both nets at the joints of a seam between two blocks with known positions.
 Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const PositionedBlocks& positioned,
                                                       const Join& join) {
@@ -175,8 +171,10 @@ Result<Seam> seam_of(const PositionedBlocks& positioned, const Join& join, doubl
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const auto& [a, b] = (*pairs)[k];
     const double gap = (a.position - b.position).norm();
-    seam.rods.push_back({Family::u, joints[k].y(), gap, angle_deg(a.tangent_u, b.tangent_u)});
-    seam.rods.push_back({Family::v, joints[k].x(), gap, angle_deg(a.tangent_v, b.tangent_v)});
+    seam.rods.push_back(
+        {Family::u, joints[k].y(), gap, angle_between(a.tangent_u, b.tangent_u) * 180 / M_PI});
+    seam.rods.push_back(
+        {Family::v, joints[k].x(), gap, angle_between(a.tangent_v, b.tangent_v) * 180 / M_PI});
   }
   for (std::size_t k = 0; k + 1 < seam.rods.size(); k += 2) {
     const SeamRod &u = seam.rods[k], &v = seam.rods[k + 1];

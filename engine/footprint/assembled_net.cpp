@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/footprint/assemblage.h"
 
@@ -45,8 +46,7 @@ class AssembledNet final : public ChebyshevNet {
     }
     middle.tangent_u.normalize();
     middle.tangent_v.normalize();
-    middle.omega = std::atan2(middle.tangent_u.cross(middle.tangent_v).norm(),
-                              middle.tangent_u.dot(middle.tangent_v));
+    middle.omega = angle_between(middle.tangent_u, middle.tangent_v);
     return middle;
   }
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -82,7 +81,6 @@ class Roles {
   }
   bool is_supported(int point) const { return network_.supported[point] != 0; }
   bool is_sprung(int point) const { return network_.springs.contains(point); }
-  /// The kind of a rod's end at this point.
   RodEnd end_at(int point) const {
     if (is_joint(point)) return RodEnd::joined;
     if (is_sprung(point)) return RodEnd::sprung;

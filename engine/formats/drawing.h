@@ -14,13 +14,11 @@ struct DrawnLine {
   bool closed = false;
 };
 
-/// A circle.
 struct DrawnCircle {
   Eigen::Vector2d centre;
   double radius_mm = 0;
 };
 
-/// A text.
 struct DrawnText {
   Eigen::Vector2d at;  ///< position of its middle
   double height_mm = 0;

@@ -1,6 +1,5 @@
 #include "engine/formats/dxf_curves.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,8 +22,7 @@ double turn_of(const Curve& at, double from, double to) {
   for (int k = 1; k <= seen; ++k) {
     const double a = from + (to - from) * (k - 1) / seen, b = from + (to - from) * k / seen;
     const Eigen::Vector3d step = at(b) - at(a);
-    if (step.norm() > 0 && last.norm() > 0)
-      turn += std::atan2(last.cross(step).norm(), last.dot(step));
+    if (step.norm() > 0 && last.norm() > 0) turn += angle_between(last, step);
     if (step.norm() > 0) last = step;
   }
   return turn * seen / (seen - 1);

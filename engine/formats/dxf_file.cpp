@@ -1,7 +1,5 @@
 #include "engine/formats/dxf_file.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

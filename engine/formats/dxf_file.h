@@ -38,7 +38,6 @@ struct DrawnEntity {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of a circle
 };
 
-/// A drawing.
 struct DxfDrawing {
   std::vector<DrawnEntity> entities;
   double unit_mm = 0;     ///< the unit $INSUNITS in mm; 0: the drawing names none

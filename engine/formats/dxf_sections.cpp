@@ -1,8 +1,5 @@
 #include "engine/formats/dxf_sections.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

@@ -1,8 +1,5 @@
 // Joins lines of a drawing that meet end to end to rods, and removes points that are not needed.
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +8,7 @@
 #include <tuple>
 
 #include "engine/core/algorithms.h"
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 
@@ -26,7 +24,7 @@ constexpr double straight_deg = 0.1;
 double turn_at(const NetworkData& network, int before, int at, int after) {
   const Eigen::Vector3d in = position_of(network, at) - position_of(network, before),
                         out = position_of(network, after) - position_of(network, at);
-  return std::atan2(in.cross(out).norm(), in.dot(out));
+  return angle_between(in, out);
 }
 
 /// An end of a line: `number` is 2 r for the start and 2 r + 1 for the end of line r.

@@ -1,12 +1,9 @@
 // Joins the rods of a drawing wherever they cross or touch.
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <tuple>
 
 #include "engine/core/algorithms.h"

@@ -1,7 +1,6 @@
 #include "engine/formats/network_file.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/try.h"

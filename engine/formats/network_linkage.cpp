@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/core/algorithms.h"
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 
@@ -123,30 +124,6 @@ std::vector<std::vector<std::size_t>> crossings_along(const NetworkData& network
     for (const int point : network.rods[r])
       if (const auto found = at.find(point); found != at.end()) along[r].push_back(found->second);
   return along;
-}
-
-/// Inverts normals so that those of neighbours along a rod have a positive scalar product.
-void turn_to_one_side(const std::vector<std::vector<std::size_t>>& along,
-                      std::vector<Eigen::Vector3d>& normals) {
-  std::vector<std::vector<std::size_t>> neighbours(normals.size());
-  for (const auto& rod : along)
-    for (std::size_t k = 1; k < rod.size(); ++k) {
-      neighbours[rod[k - 1]].push_back(rod[k]);
-      neighbours[rod[k]].push_back(rod[k - 1]);
-    }
-  std::vector<char> seen(normals.size(), 0);
-  for (std::size_t first = 0; first < normals.size(); ++first) {
-    if (seen[first] != 0) continue;
-    std::vector<std::size_t> piece{first};
-    seen[first] = 1;
-    for (std::size_t k = 0; k < piece.size(); ++k)
-      for (const std::size_t next : neighbours[piece[k]]) {
-        if (seen[next] != 0) continue;
-        seen[next] = 1;
-        if (normals[next].dot(normals[piece[k]]) < 0) normals[next] *= -1;
-        piece.push_back(next);
-      }
-  }
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "engine/geometry/marched_net.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/algorithms.h"
+#include "engine/core/dense.h"
 #include "engine/core/point_grid.h"
 #include "engine/core/try.h"
 
@@ -25,8 +25,8 @@ RodStop stop_at(LineKind line) {
 
 int sign(int k) { return (k > 0) - (k < 0); }
 
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+double acute_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double angle = angle_between(a, b);
   return std::min(angle, M_PI - angle);
 }
 
@@ -165,7 +165,7 @@ struct MarchedGrid::March {
       const auto p = corner(i, j, su, sv);
       if (!p) return RodStop::surface;
       const Eigen::Vector3d &A = grid.at(i - su, j).p, &B = grid.at(i, j - sv).p;
-      if (angle_between(*p - A, *p - B) < least_angle) return RodStop::angle;
+      if (acute_angle(*p - A, *p - B) < least_angle) return RodStop::angle;
       const RodStop from_u = stop_between(A, *p), from_v = stop_between(B, *p);
       stop = from_u != RodStop::none ? from_u : from_v;
       if (stop == RodStop::none && !(pose.outside(*p) < 0)) return RodStop::cut;
@@ -278,8 +278,8 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPose& pose,
     const auto& at = fine.at(2 * i, 2 * j);
     if (grid.known(i - 1, j) && grid.known(i, j - 1) && grid.joined(i, j, -1, 0) &&
         grid.joined(i, j, 0, -1) && at.known)
-      narrowest = std::min(narrowest, angle_between(at.p - fine.at(2 * i - 1, 2 * j).p,
-                                                    at.p - fine.at(2 * i, 2 * j - 1).p));
+      narrowest = std::min(narrowest, acute_angle(at.p - fine.at(2 * i - 1, 2 * j).p,
+                                                  at.p - fine.at(2 * i, 2 * j - 1).p));
     if (at.known) return;
     if (node.known) node.stop = RodStop::surface;
     node.known = node.to_u = node.to_v = node.on_u = node.on_v = false;

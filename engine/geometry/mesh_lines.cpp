@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/geometry/surface.h"
 
@@ -69,8 +70,7 @@ std::map<MeshEdge, double> turns_of(const Eigen::Matrix3Xd& x,
   std::map<MeshEdge, double> turns;
   for (const auto& [edge, both] : sides) {
     if (both.size() != 2) continue;
-    const Eigen::Vector3d a = normal(both[0]), b = normal(both[1]);
-    turns[edge] = std::atan2(a.cross(b).norm(), a.dot(b));
+    turns[edge] = angle_between(normal(both[0]), normal(both[1]));
   }
   return turns;
 }

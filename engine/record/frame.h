@@ -12,49 +12,28 @@ namespace gridshell::record {
 /// Value of a quantity that does not apply or is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// One recorded state, filled by simulate::frame_of() and its callers. A quantity that does not
-/// apply or is not known is NaN (`unknown`). Nodes, rods, cells and supports are those of Layout.
-struct Frame {
-  /// Position in the run, from 0.
-  int index = 0;
-  double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
-  /// Current radius of a circular boundary, and depth of a push, mm.
-  double boundary_radius_mm = unknown;
-  double depth_mm = unknown;
-  double force_N = unknown;  ///< positive when the shell resists
-  /// During a push, the fraction of the joints that moved more than 0.1 and more than 0.5 of the
-  /// depth, and the lowest latitude, degrees, among the former.
-  double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
-  Energies energies;           ///< energy of each term, mJ
-  double height_mm = 0;        ///< z of the highest joint above the plane of the boundary
-  double lowest_mm = unknown;  ///< z of the lowest point of a rod above that plane
+/// Quantities of a state that the summary of a run reports for its last frame. A quantity that does
+/// not apply or is not known is NaN (`unknown`).
+struct StateFigures {
+  double force_N = unknown;       ///< of a push, positive when the shell resists
+  double push_error_N = unknown;  ///< error of force_N
+  /// derivative of force_N by Frame::depth_mm, and its error
+  double stiffness_N_per_mm = unknown, stiffness_error_N_per_mm = unknown;
+  double largest_force_N = unknown;  ///< largest column norm of Frame::reactions_N
+  double force_error_N = unknown;    ///< largest error of Frame::reactions_N and force_N
+  Energies energies;                 ///< energy of each term, mJ
+  double energy_error_mJ = unknown;  ///< largest error of an energy term or of their sum
+  double height_mm = 0;              ///< z of the highest joint above the plane of the boundary
+  double lowest_mm = unknown;        ///< z of the lowest point of a rod above that plane
   /// Number of interpenetrations of rods, joints and table (contacts.h); -1: not computed. Least
   /// gaps between rods away from their joints and between joints, mm, if below one diameter.
   int contacts = -1;
   double rod_gap_mm = unknown, joint_gap_mm = unknown;
-  double total_K = 0;  ///< sum of cell_K, rad
-  /// Largest unbalanced force, N.
-  double residual_N = 0;
+  double total_K = 0;       ///< sum of Frame::cell_K, rad
+  double residual_N = 0;    ///< largest unbalanced force, N
   int negative_pivots = 0;  ///< negative pivots of the Hessian; 0: stable, -1: not known
   /// Largest error of a node's position, by the difference of two meshes, mm.
   double error_estimate_mm = unknown;
-  /// Newton iterations for this state.
-  int newton_iterations = 0;
-  double time_s = unknown;  ///< since the start of a dynamic snap
-  /// derivative of force_N by depth_mm, and its error
-  double stiffness_N_per_mm = unknown, stiffness_error_N_per_mm = unknown;
-  double push_error_N = unknown;     ///< error of force_N
-  double largest_force_N = unknown;  ///< largest column norm of reactions_N
-  double force_error_N = unknown;    ///< largest error of reactions_N and force_N
-  double energy_error_mJ = unknown;  ///< largest error of an energy term or of their sum
-  /// Angles between the rods of joints with laws or springs, degrees: their mean and its error, the
-  /// smallest and the largest; their largest torque and its error; the error of the energy of all
-  /// springs of joints.
-  double joint_angle_deg = unknown, joint_angle_error_deg = unknown;
-  double smallest_joint_angle_deg = unknown, largest_joint_angle_deg = unknown;
-  double one_angle_error_deg = unknown;  ///< largest error of the angle of a single joint
-  double joint_torque_Nmm = unknown, joint_torque_error_Nmm = unknown;
-  double springs_error_mJ = unknown;
   /// Largest strain of a fibre by bending, (curvature - natural curvature) times the distance of
   /// the fibre from the axis; on the finest mesh.
   double largest_bending_strain = unknown;
@@ -63,6 +42,31 @@ struct Frame {
   /// (utilisation) if the strength is known; and where the ratio, or else the stress, is largest.
   double largest_stress_MPa = unknown, utilisation = unknown;
   std::string stress_at;
+};
+
+/// One recorded state, filled by simulate::frame_of() and its callers. Nodes, rods, cells and
+/// supports are those of Layout.
+struct Frame : StateFigures {
+  /// Position in the run, from 0.
+  int index = 0;
+  double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
+  /// Current radius of a circular boundary, and depth of a push, mm.
+  double boundary_radius_mm = unknown;
+  double depth_mm = unknown;
+  /// During a push, the fraction of the joints that moved more than 0.1 and more than 0.5 of the
+  /// depth, and the lowest latitude, degrees, among the former.
+  double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
+  /// Newton iterations for this state.
+  int newton_iterations = 0;
+  double time_s = unknown;  ///< since the start of a dynamic snap
+  /// Angles between the rods of joints with laws or springs, degrees: their mean and its error, the
+  /// smallest and the largest; their largest torque and its error; the error of the energy of all
+  /// springs of joints.
+  double joint_angle_deg = unknown, joint_angle_error_deg = unknown;
+  double smallest_joint_angle_deg = unknown, largest_joint_angle_deg = unknown;
+  double one_angle_error_deg = unknown;  ///< largest error of the angle of a single joint
+  double joint_torque_Nmm = unknown, joint_torque_error_Nmm = unknown;
+  double springs_error_mJ = unknown;
   std::string event;            ///< a snap, a limit, a recovery; empty if nothing happened
   std::string kind = "solved";  ///< or "interpolated" between solved states, without a residual
   Eigen::Matrix3Xd nodes;       ///< 3 x nodes, mm; joints first

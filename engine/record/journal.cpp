@@ -79,7 +79,6 @@ std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at, Chec
   return found;
 }
 
-/// An open journal.
 struct OpenJournal {
   ReadableFile file;
   JournalHead head;

@@ -102,15 +102,13 @@ void each_dataset(LayoutType& layout, const Visit& visit) {
 /// Calls visit(name, member) for the members that are stored as attributes.
 template <RecordOf<Layout> LayoutType, class Visit>
 void each_attribute(LayoutType& layout, const Visit& visit) {
-  visit_each(visit, "spacing_mm", layout.spacing_mm, "rod_diameter_mm", layout.rod_diameter_mm,
-             "length_scale_mm", layout.length_scale_mm);
+  GRIDSHELL_VISIT(visit, layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm);
 }
 
 /// Attributes for the search for contacts, which older versions did not write.
 template <RecordOf<Layout> LayoutType, class Visit>
 void each_contact_attribute(LayoutType& layout, const Visit& visit) {
-  visit_each(visit, "joint_diameter_mm", layout.joint_diameter_mm, "joint_height_mm",
-             layout.joint_height_mm, "table_mm", layout.table_mm);
+  GRIDSHELL_VISIT(visit, layout.joint_diameter_mm, layout.joint_height_mm, layout.table_mm);
 }
 
 /// The datasets of a building block in its group.
@@ -197,7 +195,9 @@ void read_loads(hdf5::Reader& file, Layout& layout) {
 
 void write_layout(hdf5::Writer& file, const Layout& layout) {
   file.group("/layout");
-  const auto write = [&](auto& name, double value) { file.attribute("/layout", name, value); };
+  const auto write = [&](const char* name, double value) {
+    file.attribute("/layout", name, value);
+  };
   each_attribute(layout, write);
   each_contact_attribute(layout, write);
   each_dataset(layout, [&](const char* name, const auto& values, const char* unit, Presence when) {
@@ -210,8 +210,8 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
 Layout read_layout(hdf5::Reader& file) {
   Layout layout;
   each_attribute(layout,
-                 [&](auto& name, double& value) { value = file.attribute("/layout", name); });
-  each_contact_attribute(layout, [&](auto& name, double& value) {
+                 [&](const char* name, double& value) { value = file.attribute("/layout", name); });
+  each_contact_attribute(layout, [&](const char* name, double& value) {
     value = file.attribute_or("/layout", name, value);
   });
   each_dataset(layout, [&](const char* name, auto& values, const char*, Presence when) {

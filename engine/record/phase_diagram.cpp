@@ -52,16 +52,17 @@ PhasePoint point_of(const SweepTable::Row& row, bool legs_first) {
 /// Adds the states of a point to its region.
 void count(const PhasePoint& point, PhaseRegion& region) {
   ++region.points;
-  region.dome_alone += point.first_order.states == point.states;
+  region.first_order_alone += point.first_order.states == point.states;
   // classes i and iv have full symmetry
-  region.broken += point.of(StateClass::i).states + point.of(StateClass::iv).states < point.states;
-  region.several += point.states > 1;
+  region.symmetry_broken +=
+      point.of(StateClass::i).states + point.of(StateClass::iv).states < point.states;
+  region.several_states += point.states > 1;
   for (std::size_t k = 0; k < region.with.size(); ++k)
     region.with[k] += point.classes[k].states > 0;
   region.at_rest += point.at_rest;
   region.met_first_order += point.first_order.met;
-  region.with_more += point.not_in_paper() > 0;
-  region.more_states += point.not_in_paper();
+  region.with_more_than_paper += point.not_in_paper() > 0;
+  region.states_more += point.not_in_paper();
 }
 
 }  // namespace

@@ -90,15 +90,16 @@ PhaseDiagram phase_diagram_of(const SweepTable& table, const std::string& case_n
 
 /// Numbers of points and trials in a range of the shortest leg.
 struct PhaseRegion {
-  double above = 0, to = 0;            ///< above < l_d <= to; infinite: unbounded
-  int points = 0;                      ///< points at which a state was found
-  int dome_alone = 0;                  ///< points with first-mode buckling alone
-  int broken = 0;                      ///< points with a state of less than full symmetry
-  int several = 0;                     ///< points with more than one state
-  std::array<int, 5> with = {};        ///< points with states of each class
-  int at_rest = 0;                     ///< trials without imposed symmetry that reached equilibrium
-  int met_first_order = 0;             ///< trials of these that ended in first-mode buckling
-  int with_more = 0, more_states = 0;  ///< points with states not in the paper; those states
+  double above = 0, to = 0;      ///< above < l_d <= to; infinite: unbounded
+  int points = 0;                ///< points at which a state was found
+  int first_order_alone = 0;     ///< points with first-mode buckling alone
+  int symmetry_broken = 0;       ///< points with a state of less than full symmetry
+  int several_states = 0;        ///< points with more than one state
+  std::array<int, 5> with = {};  ///< points with states of each class
+  int at_rest = 0;               ///< trials without imposed symmetry that reached equilibrium
+  int met_first_order = 0;       ///< trials of these that ended in first-mode buckling
+  int with_more_than_paper = 0,
+      states_more = 0;  ///< points with states not in the paper; those states
 };
 
 /// The regions between the lines that the paper draws, at l_d = 1, 0 and -1.
@@ -111,12 +112,13 @@ std::string name_of(const PhaseRegion& region);
 template <RecordOf<PhaseRegion> Region, class Visit>
 void fields(Region& region, const Visit& visit) {
   const std::string name = name_of(region);
-  visit_each(visit, "shortest_leg", name, "points", region.points, "first_order_alone",
-             region.dome_alone, "symmetry_broken", region.broken, "several_states", region.several);
+  visit("shortest_leg", name);
+  GRIDSHELL_VISIT(visit, region.points, region.first_order_alone, region.symmetry_broken,
+                  region.several_states);
   for (const auto& [kind, word] : words_of<StateClass>())
     visit(("with_" + std::string(word)).c_str(), region.with[std::size_t(kind)]);
-  visit_each(visit, "at_rest", region.at_rest, "met_first_order", region.met_first_order,
-             "with_more_than_paper", region.with_more, "states_more", region.more_states);
+  GRIDSHELL_VISIT(visit, region.at_rest, region.met_first_order, region.with_more_than_paper,
+                  region.states_more);
 }
 
 }  // namespace gridshell::record

@@ -25,7 +25,6 @@ struct Shape {
 Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& frame,
                             std::size_t rod);
 
-/// The node of each joint.
 std::vector<int> nodes_of_joints(const record::Layout& layout);
 
 /// Reaction at each node of the frame, 3 x nodes, N: 0 without a constraint, NaN if the run did not

@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "engine/core/dense.h"
+
 namespace gridshell {
 
 NetDeviation::NetDeviation(const Eigen::Matrix3Xd& joints, const Eigen::Matrix3Xd& net, double rho)
@@ -72,10 +74,6 @@ int inflections_of(const Eigen::Matrix3Xd& curvature) {
     last = now;
   }
   return found;
-}
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// Sets the tangent of a rod of a network at a joint: as u if it is the first rod there, else as v,
@@ -278,30 +276,16 @@ SharedSymmetry::SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix
   const double same = 1e-6 * std::sqrt(points.colwise().squaredNorm().maxCoeff());
   for (const Eigen::Matrix3d& map : square_symmetries()) {
     if (map(2, 2) < 0) continue;  // only maps that do not invert z
-    const Eigen::Matrix2d turn = map.topLeftCorner<2, 2>();
-    auto image = images_of(points, turn, same);
+    auto image = images_of(points, map.topLeftCorner<2, 2>(), same);
     if (!image) continue;
-    Element element{turn, std::move(*image)};
-    const double off = (moved(element, joints) - joints).colwise().norm().maxCoeff();
-    if (off <= within_mm) elements_.push_back(std::move(element));
+    MeshSymmetry element{index_of(map), map, Eigen::Vector3d::Zero(), std::move(*image)};
+    if (distance_under(element, joints, joints) <= within_mm) group_.push_back(std::move(element));
   }
-}
-
-Eigen::Matrix3Xd SharedSymmetry::moved(const Element& element, const Eigen::Matrix3Xd& joints) {
-  Eigen::Matrix3Xd there(3, joints.cols());
-  for (Eigen::Index k = 0; k < joints.cols(); ++k) {
-    auto to = there.col(element.image[std::size_t(k)]);
-    to.head<2>() = element.turn * joints.col(k).head<2>();
-    to.z() = joints(2, k);
-  }
-  return there;
 }
 
 Eigen::Matrix3Xd SharedSymmetry::broken(const Eigen::Matrix3Xd& shape) const {
   const Eigen::Matrix3Xd joints = centred(shape);
-  Eigen::Matrix3Xd mean = Eigen::Matrix3Xd::Zero(3, joints.cols());
-  for (const Element& element : elements_) mean += moved(element, joints);
-  return joints - mean / double(order());
+  return joints - symmetric_part(joints, group_);
 }
 
 double root_mean_square(const Eigen::Matrix3Xd& columns) {

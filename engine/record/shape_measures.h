@@ -117,19 +117,13 @@ class SharedSymmetry {
   SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix3Xd& shape, double within_mm);
 
   /// Number of symmetries of the shape with the identity: 1 to 8.
-  int order() const { return int(elements_.size()); }
+  int order() const { return int(group_.size()); }
 
   /// The part of a shape that breaks the symmetry, x - mean of g x over the group: 3 x n, mm.
   Eigen::Matrix3Xd broken(const Eigen::Matrix3Xd& joints) const;
 
  private:
-  struct Element {
-    Eigen::Matrix2d turn;
-    std::vector<int> image;  // the element maps joint k to the position of joint image[k]
-  };
-  static Eigen::Matrix3Xd moved(const Element& element, const Eigen::Matrix3Xd& joints);
-
-  std::vector<Element> elements_;
+  std::vector<MeshSymmetry> group_;
 };
 
 /// Root mean square of the norms of the columns.

@@ -48,7 +48,6 @@ struct StateName {
   std::string text() const;
 };
 
-/// One state.
 struct StateRow {
   int state = 0;  ///< from 1, in the order of energy
   StateClass kind = StateClass::other;
@@ -75,15 +74,14 @@ struct StateRow {
 };
 template <RecordOf<StateRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "state", row.state, "class", row.kind, "group", row.group);
+  visit("state", row.state);
+  visit("class", row.kind);
+  visit("group", row.group);
   visit_energies(row.energies, visit);
-  double sum = row.energy_mJ();  // reported, not stored
-  visit("energy_mJ", sum);
-  visit_each(visit, "height_mm", row.height_mm, "z_max_mm", row.z_max_mm, "z_min_mm", row.z_min_mm,
-             "inflections", row.inflections, "count", row.count, "count_confined",
-             row.count_confined, "lives_to", row.lives_to, "lives_to_radius_mm",
-             row.lives_to_radius_mm, "eigenvalue_N_per_mm2", row.eigenvalue_N_per_mm2,
-             "error_estimate_mm", row.error_estimate_mm, "barrier_mJ", row.barrier_mJ);
+  double energy_mJ = row.energy_mJ();  // reported, not stored
+  GRIDSHELL_VISIT(visit, energy_mJ, row.height_mm, row.z_max_mm, row.z_min_mm, row.inflections,
+                  row.count, row.count_confined, row.lives_to, row.lives_to_radius_mm,
+                  row.eigenvalue_N_per_mm2, row.error_estimate_mm, row.barrier_mJ);
 }
 
 /// Numbers of the complete search.
@@ -95,27 +93,29 @@ struct StateSearch {
   int confined_trials = 0, confined_at_rest = 0;
   std::map<std::string, int> ended_otherwise;  ///< other outcomes of trials, and their numbers
   /// edges per segment of the mesh that distinguishes states
-  int judged_edges = 0;
-  int found = 0;                             ///< number of states on that mesh
-  int finer_lost = 0;                        ///< states of these that finer meshes do not have
-  int finer_merged = 0;                      ///< states of these that are equal on finer meshes
-  RichnessEstimate completeness;             ///< estimate from the trials that are counted
-  double cpu_s = 0;                          ///< processor time of all trials
-  int paths_followed = 0, passes_found = 0;  ///< paths between states, for barriers; passes on them
+  int judged_edges_per_segment = 0;
+  int states_found = 0;                    ///< number of states on that mesh
+  int states_that_finer_meshes_lose = 0;   ///< states of these that finer meshes do not have
+  int states_that_finer_meshes_merge = 0;  ///< states of these that are equal on finer meshes
+  RichnessEstimate completeness;           ///< estimate from the trials that are counted
+  double cpu_s = 0;                        ///< processor time of all trials
+  int paths_followed_for_barriers = 0,
+      passes_found = 0;  ///< paths between states, for barriers; passes on them
 };
 template <RecordOf<StateSearch> Search, class Visit>
 void fields(Search& search, const Visit& visit) {
   auto& seen = search.completeness;
-  visit_each(visit, "mode", search.mode, "seed", search.seed, "trials", search.trials, "at_rest",
-             search.at_rest, "confined_trials", search.confined_trials, "confined_at_rest",
-             search.confined_at_rest, "ended_otherwise", search.ended_otherwise,
-             "judged_edges_per_segment", search.judged_edges, "states_found", search.found,
-             "states_that_finer_meshes_lose", search.finer_lost, "states_that_finer_meshes_merge",
-             search.finer_merged);
-  visit_each(visit, "seen", seen.seen, "seen_once", seen.once, "seen_twice", seen.twice, "chao1",
-             seen.estimate, "chao1_low_95", seen.low, "chao1_high_95", seen.high, "cpu_s",
-             search.cpu_s, "paths_followed_for_barriers", search.paths_followed, "passes_found",
-             search.passes_found);
+  GRIDSHELL_VISIT(visit, search.mode, search.seed, search.trials, search.at_rest,
+                  search.confined_trials, search.confined_at_rest, search.ended_otherwise,
+                  search.judged_edges_per_segment, search.states_found,
+                  search.states_that_finer_meshes_lose, search.states_that_finer_meshes_merge,
+                  seen.seen);
+  visit("seen_once", seen.once);
+  visit("seen_twice", seen.twice);
+  visit("chao1", seen.estimate);
+  visit("chao1_low_95", seen.low);
+  visit("chao1_high_95", seen.high);
+  GRIDSHELL_VISIT(visit, search.cpu_s, search.paths_followed_for_barriers, search.passes_found);
 }
 
 /// How a state is disturbed: its boundary is released and contracted again, or a joint is pushed.
@@ -126,11 +126,8 @@ struct Transition {
   StateName from, to;
   Disturbance by = Disturbance::released;
   int count = 0;
+  GRIDSHELL_FIELDS(from, to, by, count)
 };
-template <RecordOf<Transition> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "from", row.from, "to", row.to, "by", row.by, "count", row.count);
-}
 
 /// A mountain pass between two states: a saddle of the energy with one descent to either side, on
 /// the mesh that distinguishes states.
@@ -140,12 +137,8 @@ struct Barrier {
   double barrier_mJ = unknown;  ///< energy of the saddle above that of `from`
   double back_mJ = unknown;     ///< energy of the saddle above that of `to`
   double residual_N = unknown;  ///< largest unbalanced force at the saddle
+  GRIDSHELL_FIELDS(from, to, energy_mJ, barrier_mJ, back_mJ, residual_N)
 };
-template <RecordOf<Barrier> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "from", row.from, "to", row.to, "energy_mJ", row.energy_mJ, "barrier_mJ",
-             row.barrier_mJ, "back_mJ", row.back_mJ, "residual_N", row.residual_N);
-}
 
 /// Everything of a search but the shapes.
 struct StateTables {

@@ -36,13 +36,8 @@ struct AccuracyRow {
   double cpu_s = unknown;                           ///< median processor time
   double cpu_min_s = unknown, cpu_max_s = unknown;  ///< least and largest processor time
   RunOutcome outcome = RunOutcome::right;
+  GRIDSHELL_FIELDS(method, edges_per_segment, dof, error, cpu_s, cpu_min_s, cpu_max_s, outcome)
 };
-template <RecordOf<AccuracyRow> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "method", row.method, "edges_per_segment", row.edges_per_segment, "dof",
-             row.dof, "error", row.error, "cpu_s", row.cpu_s, "cpu_min_s", row.cpu_min_s,
-             "cpu_max_s", row.cpu_max_s, "outcome", row.outcome);
-}
 
 /// The time of a method for a number of rods.
 struct ScalingRow {
@@ -51,13 +46,8 @@ struct ScalingRow {
   int edges_per_segment = 0, dof = 0;
   double cpu_s = unknown, cpu_min_s = unknown, cpu_max_s = unknown;
   RunOutcome outcome = RunOutcome::right;
+  GRIDSHELL_FIELDS(method, rods, edges_per_segment, dof, cpu_s, cpu_min_s, cpu_max_s, outcome)
 };
-template <RecordOf<ScalingRow> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "method", row.method, "rods", row.rods, "edges_per_segment",
-             row.edges_per_segment, "dof", row.dof, "cpu_s", row.cpu_s, "cpu_min_s", row.cpu_min_s,
-             "cpu_max_s", row.cpu_max_s, "outcome", row.outcome);
-}
 
 /// One cell of a map: a row of stability.csv.
 struct StabilityRow {
@@ -67,12 +57,8 @@ struct StabilityRow {
   std::string y_name;
   double y = 0;
   RunOutcome outcome = RunOutcome::right;
+  GRIDSHELL_FIELDS(map, method, x_name, x, y_name, y, outcome)
 };
-template <RecordOf<StabilityRow> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "map", row.map, "method", row.method, "x_name", row.x_name, "x", row.x,
-             "y_name", row.y_name, "y", row.y, "outcome", row.outcome);
-}
 
 /// Slope of log(y) over log(x) by least squares; NaN for fewer than four positive points.
 double exponent(const std::vector<double>& x, const std::vector<double>& y);
@@ -90,12 +76,8 @@ struct ModeRow {
   double frequency_Hz = unknown;
   double error_Hz = unknown;  ///< NaN on one mesh
   double residual = unknown;  ///< |K v - lambda M v| / |lambda M v| on the finest mesh
+  GRIDSHELL_FIELDS(mode, frequency_Hz, error_Hz, residual)
 };
-template <RecordOf<ModeRow> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "mode", row.mode, "frequency_Hz", row.frequency_Hz, "error_Hz", row.error_Hz,
-             "residual", row.residual);
-}
 
 // A bifurcation diagram: the points of a path and of the branches that bifurcate from it.
 
@@ -124,14 +106,9 @@ struct BranchPoint {
   BranchEvent event = BranchEvent::none;
 
   bool stable() const { return negative_pivots == 0; }
+  GRIDSHELL_FIELDS(branch, progress, boundary_radius_mm, height_mm, amplitude, energy_mJ,
+                   negative_pivots, event)
 };
-template <RecordOf<BranchPoint> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "branch", row.branch, "progress", row.progress, "boundary_radius_mm",
-             row.boundary_radius_mm, "height_mm", row.height_mm, "amplitude", row.amplitude,
-             "energy_mJ", row.energy_mJ, "negative_pivots", row.negative_pivots, "event",
-             row.event);
-}
 
 // Load study of a shell: load.csv has a row per point of a case's path, cases.csv a row per case.
 
@@ -147,9 +124,8 @@ struct LoadPoint {
 };
 template <RecordOf<LoadPoint> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "case", row.load_case, "factor", row.factor, "way_mm", row.way_mm,
-             "negative_pivots", row.negative_pivots, "event", row.event, "utilisation",
-             row.utilisation);
+  visit("case", row.load_case);
+  GRIDSHELL_VISIT(visit, row.factor, row.way_mm, row.negative_pivots, row.event, row.utilisation);
 }
 
 /// Result of a load case: a row of cases.csv.
@@ -179,13 +155,11 @@ std::string knock_down_text(const LoadRow& row);
 
 template <RecordOf<LoadRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "case", row.load_case, "critical_factor", row.critical_factor, "error",
-             row.error, "event", row.event, "linear_factor", row.linear_factor, "linear_error",
-             row.linear_error, "strength_factor", row.strength_factor, "strength_error",
-             row.strength_error, "load_x_N", row.load_x_N, "load_y_N", row.load_y_N, "load_z_N",
-             row.load_z_N, "imperfections", row.imperfections, "imperfections_failed",
-             row.imperfections_failed, "knock_down_5", row.knock_down_5, "knock_down_50",
-             row.knock_down_50, "knock_down_95", row.knock_down_95);
+  visit("case", row.load_case);
+  GRIDSHELL_VISIT(visit, row.critical_factor, row.error, row.event, row.linear_factor,
+                  row.linear_error, row.strength_factor, row.strength_error, row.load_x_N,
+                  row.load_y_N, row.load_z_N, row.imperfections, row.imperfections_failed,
+                  row.knock_down_5, row.knock_down_50, row.knock_down_95);
 }
 
 }  // namespace gridshell::record

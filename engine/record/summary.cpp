@@ -14,29 +14,8 @@
 namespace gridshell::record {
 
 void Summary::take_state(const Frame& last) {
-  negative_pivots = last.negative_pivots;
+  StateFigures::operator=(last);
   stable = last.negative_pivots == 0;
-  residual_N = last.residual_N;
-  error_estimate_mm = last.error_estimate_mm;
-  force_N = last.force_N;
-  push_error_N = last.push_error_N;
-  stiffness_N_per_mm = last.stiffness_N_per_mm;
-  stiffness_error_N_per_mm = last.stiffness_error_N_per_mm;
-  largest_force_N = last.largest_force_N;
-  force_error_N = last.force_error_N;
-  energy_error_mJ = last.energy_error_mJ;
-  largest_bending_strain = last.largest_bending_strain;
-  bending_strain_at = last.bending_strain_at;
-  largest_stress_MPa = last.largest_stress_MPa;
-  utilisation = last.utilisation;
-  stress_at = last.stress_at;
-  energies = last.energies;
-  height_mm = last.height_mm;
-  lowest_mm = last.lowest_mm;
-  contacts = last.contacts;
-  rod_gap_mm = last.rod_gap_mm;
-  joint_gap_mm = last.joint_gap_mm;
-  total_K = last.total_K;
 }
 
 std::string Summary::breaking() const {

@@ -24,9 +24,8 @@ enum class Kind { unknown, run, figure, movie };
 /// Names of Kind; version 0.1 did not write it.
 constexpr auto words(Kind) { return names_except<Kind>({{Kind::unknown, ""}}); }
 
-/// Results of a run, for its last frame unless stated otherwise. Members without a comment are
-/// those of Frame.
-struct Summary {
+/// Results of a run, for its last frame unless stated otherwise.
+struct Summary : StateFigures {
   std::string program = std::string("gridshell ") + version();  ///< program that computed the run
   std::string preset;
   std::string model;         ///< "net", "bend" or "twist"
@@ -35,7 +34,6 @@ struct Summary {
   int rods = 0, joints = 0, cells = 0, dof = 0;
   bool solved = true;  ///< false: the net itself, without an equilibrium; stability is then null
   bool stable = false;
-  int negative_pivots = 0;
   Limit limit = Limit::none;
   /// events that the path passed, as sentences; never empty with a limit
   std::string limit_reason;
@@ -43,21 +41,9 @@ struct Summary {
   /// Whether the estimated error of every load step is within the requested tolerance; if not,
   /// `doubt` has the error.
   bool tolerance_met = true;
-  double residual_N = 0;
   double largest_strain = unknown;  ///< axial strain of the edge with the largest |strain|
-  double error_estimate_mm = unknown;
-  double force_N = unknown, push_error_N = unknown, stiffness_N_per_mm = unknown,
-         stiffness_error_N_per_mm = unknown, largest_force_N = unknown, force_error_N = unknown,
-         energy_error_mJ = unknown, largest_bending_strain = unknown, largest_stress_MPa = unknown,
-         utilisation = unknown;
-  std::string bending_strain_at, stress_at;
-  std::string pushed_joint;  ///< joint that [indentation] pushes: "[0, -1]"; empty: none
-  Energies energies;         ///< energy of each term, mJ
-  double height_mm = 0, lowest_mm = unknown;
-  int contacts = -1;
-  double rod_gap_mm = unknown, joint_gap_mm = unknown;
+  std::string pushed_joint;         ///< joint that [indentation] pushes: "[0, -1]"; empty: none
   std::string contact;  ///< parts that came into contact, and at which progress; empty: none
-  double total_K = 0;
   double max_deviation = unknown,
          mean_deviation = unknown;     ///< deviations of the joints from the net, over rho
   double median_deviation = unknown;   ///< median of these deviations
@@ -78,32 +64,24 @@ struct Summary {
 };
 template <RecordOf<Summary> Run, class Visit>
 void fields(Run& run, const Visit& visit) {
-  visit_each(visit, "program", run.program, "preset", run.preset, "model", run.model,
-             "model_reason", run.model_reason, "edges_per_segment", run.edges_per_segment, "rods",
-             run.rods, "joints", run.joints, "cells", run.cells, "dof", run.dof, "stable",
-             run.stable, "negative_pivots", run.negative_pivots, "limit", run.limit, "limit_reason",
-             run.limit_reason, "doubt", run.doubt, "tolerance_met", run.tolerance_met, "residual_N",
-             run.residual_N, "largest_strain", run.largest_strain, "error_estimate_mm",
-             run.error_estimate_mm, "force_N", run.force_N, "push_error_N", run.push_error_N,
-             "stiffness_N_per_mm", run.stiffness_N_per_mm, "stiffness_error_N_per_mm",
-             run.stiffness_error_N_per_mm, "largest_force_N", run.largest_force_N, "force_error_N",
-             run.force_error_N, "energies_error_mJ", run.energy_error_mJ, "largest_bending_strain",
-             run.largest_bending_strain, "bending_strain_at", run.bending_strain_at,
-             "largest_stress_MPa", run.largest_stress_MPa, "utilisation", run.utilisation,
-             "stress_at", run.stress_at, "pushed_joint", run.pushed_joint);
+  GRIDSHELL_VISIT(visit, run.program, run.preset, run.model, run.model_reason,
+                  run.edges_per_segment, run.rods, run.joints, run.cells, run.dof, run.stable,
+                  run.negative_pivots, run.limit, run.limit_reason, run.doubt, run.tolerance_met,
+                  run.residual_N, run.largest_strain, run.error_estimate_mm, run.force_N,
+                  run.push_error_N, run.stiffness_N_per_mm, run.stiffness_error_N_per_mm,
+                  run.largest_force_N, run.force_error_N);
+  visit("energies_error_mJ", run.energy_error_mJ);
+  GRIDSHELL_VISIT(visit, run.largest_bending_strain, run.bending_strain_at, run.largest_stress_MPa,
+                  run.utilisation, run.stress_at, run.pushed_joint);
   visit_energies(run.energies, visit);
   // not stored: written, and dropped when read back
   double energy_mJ = run.energies.total();
-  visit("energy_mJ", energy_mJ);
-  visit_each(visit, "height_mm", run.height_mm, "lowest_mm", run.lowest_mm, "contacts",
-             run.contacts, "rod_gap_mm", run.rod_gap_mm, "joint_gap_mm", run.joint_gap_mm,
-             "contact", run.contact, "total_K", run.total_K, "max_deviation", run.max_deviation,
-             "mean_deviation", run.mean_deviation, "median_deviation", run.median_deviation,
-             "deviation_p90", run.deviation_p90, "max_seam_gap_mm", run.max_seam_gap_mm,
-             "max_seam_kink_deg", run.max_seam_kink_deg, "newton_iterations", run.newton_iterations,
-             "factorizations", run.factorizations, "seconds_setup", run.seconds_setup,
-             "seconds_simulation", run.seconds_simulation, "seconds_render", run.seconds_render,
-             "steps", run.steps, "kind", run.kind, "finished", run.finished);
+  GRIDSHELL_VISIT(visit, energy_mJ, run.height_mm, run.lowest_mm, run.contacts, run.rod_gap_mm,
+                  run.joint_gap_mm, run.contact, run.total_K, run.max_deviation, run.mean_deviation,
+                  run.median_deviation, run.deviation_p90, run.max_seam_gap_mm,
+                  run.max_seam_kink_deg, run.newton_iterations, run.factorizations,
+                  run.seconds_setup, run.seconds_simulation, run.seconds_render, run.steps,
+                  run.kind, run.finished);
 }
 
 // summary.json: the figures of a run as one JSON object, keys as in Summary, in its order.

@@ -85,8 +85,8 @@ struct LawRow {
 };
 template <RecordOf<LawRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "case", row.case_name, "figure", row.figure, "key", row.key, "exponent",
-             row.exponent, "error", row.error);
+  visit("case", row.case_name);
+  GRIDSHELL_VISIT(visit, row.figure, row.key, row.exponent, row.error);
 }
 
 /// figure = factor * product of key^exponent, by least squares of the logarithms.

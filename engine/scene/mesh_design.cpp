@@ -35,7 +35,6 @@ Result<TriangleMesh> sheet_of(const preset::SurfaceData& file, std::vector<std::
   return TriangleMesh::make(mesh.vertices, std::move(mesh.triangles));
 }
 
-/// The start of the net that the preset gives.
 Result<NetStart> given_start(const preset::Net& requested, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm) {
   TRY(pose, given_pose(requested, shape, outside, allowed_mm));

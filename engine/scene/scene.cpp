@@ -1,6 +1,5 @@
 #include "engine/scene/scene.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>

@@ -45,7 +45,7 @@ struct Scene {
   std::shared_ptr<const Assemblage> blocks;  ///< building blocks of the net, if any
   std::shared_ptr<const MeshNetReport> mesh_net;  ///< report of a net on a mesh
   bool from_net = false;  ///< whether the path starts at the net, at progress 1
-  /// Whether the path starts at the equilibrium beside the drawn shape, progress 0: a network in
+  /// Whether the path starts at the equilibrium next to the drawn shape, progress 0: a network in
   /// space, or one with straight rods that are drawn bent.
   bool from_drawing = false;
   Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures

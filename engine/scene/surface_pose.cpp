@@ -1,6 +1,5 @@
 #include "engine/scene/surface_pose.h"
 
-#include <fmt/format.h>
 #include <cmath>
 #include <numbers>
 

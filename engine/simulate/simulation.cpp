@@ -94,7 +94,7 @@ void Simulation::put_push(record::Frame& frame) const {
   if (origin == constraint_origins.end()) return;
   const Eigen::Vector3d moved = constraint.part(nodes().col(constraint.node) - origin->second);
   frame.depth_mm = moved.norm();
-  // a joint that is held is `nearest_mm` from its origin, to rounding
+  // a joint of the step `hold` is `nearest_mm` from its origin, to rounding
   const bool any = frame.depth_mm > 0.5 * nearest_mm;
   frame.force_N = any ? constraint.part(force(constraints_.size() - 1)).dot(moved.normalized()) : 0;
   put_push_errors(frame);
@@ -123,9 +123,9 @@ Energies Simulation::energies() const {
   return shell_->extrapolates() ? extrapolated(fine, shell_->energies(last - 1)) : fine;
 }
 
-bool Simulation::locked() const { return locked_beyond(scene_->max_strain); }
+bool Simulation::locked() const { return locked_past(scene_->max_strain); }
 
-bool Simulation::locked_beyond(double strain) const {
+bool Simulation::locked_past(double strain) const {
   if (std::abs(shell_->state().largest_strain) > strain) return true;
   if (actuating_ || constraints_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
@@ -170,7 +170,7 @@ Simulation::Limits Simulation::limits_here() const {
 
 std::optional<Event> Simulation::exceeded(const Limits& limits) const {
   Event met{Event::Kind::locked, shell_->state().t, {}, {}};
-  if (locked_beyond(limits.strain)) return met;
+  if (locked_past(limits.strain)) return met;
   met.kind = Event::Kind::overbent;
   if (scene_->limits_strength()) {
     auto [fraction, by] = strained();

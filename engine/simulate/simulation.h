@@ -338,7 +338,7 @@ class Simulation {
   std::pair<double, std::string> strained() const;
   Limits limits() const;
   Limits limits_here() const;
-  bool locked_beyond(double strain) const;
+  bool locked_past(double strain) const;
   std::optional<Event> exceeded(const Limits& limits) const;
   class Walk;
 

@@ -65,7 +65,6 @@ constexpr auto words(Globalisation) {
                                       {Globalisation::shifted, "shifted"}});
 }
 
-/// Options of march().
 struct MarchOptions {
   int load_steps = 40;
   Globalisation globalisation = Globalisation::shifted;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "engine/core/try.h"
-#include "engine/elastic/model.h"
 #include "engine/preset/consistency.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/indentation.h"

@@ -5,29 +5,32 @@
 #include <optional>
 
 #include "engine/solve/equilibrium.h"
-#include "engine/solve/newton.h"
 
 namespace gridshell {
 namespace {
 
-constexpr int first_steps = 6;      // steps of a new image before the next one is added
-constexpr int first_climb = 4;      // rounds before the first search for a saddle
-constexpr int climb_every = 4;      // rounds between two searches
+constexpr int first_steps = 6;    // steps of a new image before the next one is added
+constexpr int first_climb = 4;    // rounds before the first search for a saddle
+constexpr int climb_every = 4;    // rounds between two searches
+constexpr int images = 16;        // number of states along the path, both ends included
+constexpr int most_rounds = 500;  // in each round every state of the string takes one step
+// perturbation of the first string, so that a symmetry of both ends does not constrain it
+constexpr double noise_mm = 0.01;
 constexpr double on_string = 2;     // largest distance of a saddle from the highest image, spacings
 constexpr double over_softest = 4;  // least shift, over the lowest stiffness of the first state
 
 class ElasticString {
  public:
-  ElasticString(Linearisation& system, const PassOptions& options, const Watch& watch)
-      : system_(system), options_(options), watch_(watch) {}
+  ElasticString(Linearisation& system, double step_mm, const Watch& watch)
+      : system_(system), step_mm_(step_mm), watch_(watch) {}
 
   /// Adds images from both ends towards one another. Returns false if an image cannot take a step.
   bool grow(const State& a, const State& b) {
     least_shift_ = over_softest * softest_stiffness(a);
-    spacing_ = (b.x - a.x).norm() / (options_.images - 1);
+    spacing_ = (b.x - a.x).norm() / (images - 1);
     std::vector<Image> left{{a, system_.energy_at(a), 0}}, right{{b, system_.energy_at(b), 0}};
-    const Eigen::Matrix3Xd noise = options_.noise_mm * generic_direction(a.x.cols());
-    for (int k = 0; k < 4 * options_.images && !watch_.cancelled(); ++k) {
+    const Eigen::Matrix3Xd noise = noise_mm * generic_direction(a.x.cols());
+    for (int k = 0; k < 4 * images && !watch_.cancelled(); ++k) {
       auto& from = k % 2 == 0 ? left : right;
       const State& tip = from.back().state;
       const Eigen::Matrix3Xd ahead = (k % 2 == 0 ? right : left).back().state.x - tip.x;
@@ -67,7 +70,7 @@ class ElasticString {
     pass.saddle = images_[highest_].state;
     NewtonOptions options;
     options.tolerance_mm = 1e-8;
-    options.farthest_mm = 4 * options_.step_mm;
+    options.farthest_mm = 4 * step_mm_;
     if (newton(system_, pass.saddle, options, watch_).outcome != Outcome::reached)
       return std::nullopt;
     const double away = (pass.saddle.x - images_[highest_].state.x).norm();
@@ -88,10 +91,10 @@ class ElasticString {
     std::vector<double> at(images_.size(), 0.0);
     for (std::size_t k = 1; k < images_.size(); ++k)
       at[k] = at[k - 1] + (images_[k].state.x - images_[k - 1].state.x).norm();
-    spacing_ = at.back() / (options_.images - 1);
+    spacing_ = at.back() / (images - 1);
     std::vector<Image> even;
     std::size_t right = 1;
-    for (int n = 0; n < options_.images; ++n) {
+    for (int n = 0; n < images; ++n) {
       const double position = spacing_ * n;
       while (right + 1 < at.size() && at[right] < position) ++right;
       const double fraction = (position - at[right - 1]) / (at[right] - at[right - 1]);
@@ -154,13 +157,13 @@ class ElasticString {
     down -= product(along, down) / product(along, normal) * normal;
     const double move = max_column_norm(down);
     if (!std::isfinite(move)) return false;
-    system_.apply(std::min(1.0, options_.step_mm / move) * down, image.state);
+    system_.apply(std::min(1.0, step_mm_ / move) * down, image.state);
     image.energy_mJ = system_.energy_at(image.state);
     return true;
   }
 
   Linearisation& system_;
-  const PassOptions& options_;
+  double step_mm_;
   const Watch& watch_;
   std::vector<Image> images_;  // from a to b
   double spacing_ = 0;
@@ -170,13 +173,13 @@ class ElasticString {
 
 }  // namespace
 
-MountainPass mountain_pass(Linearisation& system, const State& a, const State& b,
-                           const PassOptions& options, const Watch& watch) {
+MountainPass mountain_pass(Linearisation& system, const State& a, const State& b, double step_mm,
+                           const Watch& watch) {
   MountainPass none;
-  if (max_column_norm(b.x - a.x) < options.noise_mm) return none;  // no displacement at all
-  ElasticString string(system, options, watch);
+  if (max_column_norm(b.x - a.x) < noise_mm) return none;  // no displacement at all
+  ElasticString string(system, step_mm, watch);
   if (string.grow(a, b)) {
-    for (int round = 0; round < options.most_rounds; ++round) {
+    for (int round = 0; round < most_rounds; ++round) {
       if (!string.go_down_all()) break;
       if (round >= first_climb && (round - first_climb) % climb_every == 0)
         if (auto pass = string.climb()) {

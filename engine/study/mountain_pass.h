@@ -10,14 +10,6 @@
 
 namespace gridshell {
 
-struct PassOptions {
-  int images = 16;        ///< number of states along the path, both ends included
-  int most_rounds = 500;  ///< in each round every state of the string takes one step
-  double step_mm = 2;     ///< no node moves further in one step
-  /// perturbation of the first string, so that a symmetry of both ends does not constrain it
-  double noise_mm = 0.01;
-};
-
 /// A saddle with one descent direction.
 struct MountainPass {
   Outcome outcome = Outcome::not_converged;  ///< reached, not_converged, cancelled
@@ -33,9 +25,9 @@ struct MountainPass {
 /// every round. From its highest state Newton's method finds an equilibrium, which is accepted if
 /// it has one negative pivot and is on the string. Steps are linearly implicit, (K + m I) dx =
 /// -dE/dx, so that stiff rods retain their lengths. `a` and `b` are stable states of one model with
-/// the same ends. The caller must check that the saddle's two sides lead to `a` and `b`: there may
-/// be other states between them.
-MountainPass mountain_pass(Linearisation& system, const State& a, const State& b,
-                           const PassOptions& options, const Watch& watch);
+/// the same ends; no node moves further than `step_mm` in one step. The caller must check that the
+/// saddle's two sides lead to `a` and `b`: there may be other states between them.
+MountainPass mountain_pass(Linearisation& system, const State& a, const State& b, double step_mm,
+                           const Watch& watch);
 
 }  // namespace gridshell

@@ -7,7 +7,6 @@
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
 #include "engine/solve/buckling.h"
-#include "engine/solve/equilibrium.h"
 
 namespace gridshell {
 namespace {

@@ -76,7 +76,7 @@ std::vector<ShellState> distinct_states(const Scene& scene, const preset::Search
     if (at == met.size()) met.push_back({{}, {}, std::move(*trial.rest), trial.energy_mJ});
     ++(confined ? met[at].row.count_confined : met[at].row.count);
   }
-  search.found = int(met.size());
+  search.states_found = int(met.size());
   return met;
 }
 
@@ -85,7 +85,7 @@ tl::unexpected<Error> none_found(const record::StateSearch& search) {
   for (const auto& [reason, count] : search.ended_otherwise)
     why += fmt::format("; {} {}", count, reason);
   const int trials = search.trials + search.confined_trials;
-  if (search.found == 0)
+  if (search.states_found == 0)
     return fail(Fault::no_equilibrium, "none of {} trials ended in a stable state{}", trials, why);
   return fail(Fault::no_equilibrium,
               "finer meshes have none of the stable states in which {} of {} trials ended{}",
@@ -100,7 +100,7 @@ void keep(const Scene& scene, const preset::SearchSettings& jitter,
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k]) order.push_back(k);
-  library.search.finer_lost = int(all.size() - order.size());
+  library.search.states_that_finer_meshes_lose = int(all.size() - order.size());
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return all[k]->row.energy_mJ(); });
   StateCatalogue book(symmetries, tolerance_mm(scene, jitter));
   for (const std::size_t k : order) {
@@ -113,7 +113,7 @@ void keep(const Scene& scene, const preset::SearchSettings& jitter,
       one.frame.event = fmt::format("state {}: {}", one.row.name(), one.row.group);
       library.states.push_back(std::move(one));
     } else {
-      ++library.search.finer_merged;
+      ++library.search.states_that_finer_meshes_merge;
       library.states[at].row.count += one.row.count;
       library.states[at].row.count_confined += one.row.count_confined;
     }
@@ -183,7 +183,7 @@ Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
   search.seed = jitter.seed;
   search.trials = jitter.trials;
   search.confined_trials = jitter.confined;
-  search.judged_edges = judged_edges;
+  search.judged_edges_per_segment = judged_edges;
   TRY(trials, shake(scene, jitter, options.threads, watch));
   const RodMesh mesh = mesh_rods(scene->footprint, judged_edges);
   const auto symmetries = symmetries_of_shell(

@@ -110,10 +110,9 @@ class Crossings {
       if (!rest) return std::nullopt;
       target = std::move(*rest);
     }
-    PassOptions options;
-    options.step_mm = step_over_d * spacing_;
     Crossing crossing;
-    crossing.pass = mountain_pass(system, rest_of(pair.from), target, options, watch);
+    crossing.pass =
+        mountain_pass(system, rest_of(pair.from), target, step_over_d * spacing_, watch);
     if (crossing.pass.outcome != Outcome::reached) return std::nullopt;
     const bool back =
         descend(crossing.pass, BranchSide::against, crossing.from, crossing.from_mJ, watch);
@@ -241,7 +240,7 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
   std::vector<record::Barrier> all;
   for (const auto& crossing : found)
     if (crossing) all.push_back(barrier_of(*crossing));
-  library.search.paths_followed = int(pairs.size());
+  library.search.paths_followed_for_barriers = int(pairs.size());
   library.search.passes_found = int(all.size());
   for (const record::Barrier& one : all)
     for (const auto& [state, height] :

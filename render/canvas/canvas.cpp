@@ -234,26 +234,25 @@ void swap_red_and_blue(const std::uint8_t* from, std::uint8_t* to, int pixels) {
   }
 }
 
-}  // namespace
-
-void premultiply(const std::uint8_t* from, unsigned char* to, int pixels) {
+/// Swaps red and blue, and converts each colour of a pixel by its alpha.
+void convert(const std::uint8_t* from, std::uint8_t* to, int pixels, auto by_alpha) {
   if (opaque(from, pixels)) return swap_red_and_blue(from, to, pixels);
   for (int k = 0; k < pixels; ++k, from += 4, to += 4) {
-    const int a = from[3];
-    for (int c = 0; c < 3; ++c) to[2 - c] = static_cast<unsigned char>((from[c] * a + 127) / 255);
+    for (int c = 0; c < 3; ++c) to[2 - c] = std::uint8_t(by_alpha(from[c], from[3]));
     to[3] = from[3];
   }
 }
 
+}  // namespace
+
+void premultiply(const std::uint8_t* from, unsigned char* to, int pixels) {
+  convert(from, to, pixels, [](int value, int alpha) { return (value * alpha + 127) / 255; });
+}
+
 void unpremultiply(const unsigned char* from, std::uint8_t* to, int pixels) {
-  if (opaque(from, pixels)) return swap_red_and_blue(from, to, pixels);
-  for (int k = 0; k < pixels; ++k, from += 4, to += 4) {
-    const int a = from[3];
-    for (int c = 0; c < 3; ++c)
-      to[c] =
-          static_cast<std::uint8_t>(a == 0 ? 0 : std::min(255, (from[2 - c] * 255 + a / 2) / a));
-    to[3] = from[3];
-  }
+  convert(from, to, pixels, [](int value, int alpha) {
+    return alpha == 0 ? 0 : std::min(255, (value * 255 + alpha / 2) / alpha);
+  });
 }
 
 void draw_over(Image& image, const DrawOn& draw) {

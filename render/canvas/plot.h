@@ -136,7 +136,6 @@ double legend_height(const Plot& plot, double width);
 /// The width that the labels left of a plot's frame take.
 double labels_width(const Canvas& canvas, const Box& box, const Plot& plot);
 
-/// Draws the plot with its labels into `box`.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);
 
 /// Writes a plot as `<stem>.png`, `<stem>.svg` and `<stem>.pdf`, of the printed width or that of a

@@ -1,10 +1,8 @@
 #include "render/gl/mesh.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 namespace gridshell::render {
 std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed) {

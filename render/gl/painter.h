@@ -75,7 +75,6 @@ class Painter {
   /// Copies the scene's triangles to the graphics processor; to be called before the first tile.
   Result<void> begin(const RenderJob& shot);
 
-  /// Paints a tile into its part of `image`.
   Result<void> paint(const RenderJob& shot, const Tile& tile, Image& image);
 
  private:

@@ -1,7 +1,6 @@
 #include "render/gl/renderer.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,6 @@
 #include "render/gl/scene.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>

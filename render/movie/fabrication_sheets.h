@@ -11,7 +11,6 @@
 
 namespace gridshell::render {
 
-/// One column of a table.
 struct TableColumn {
   std::string title;  ///< text with markup
   double width = 0;   ///< points; 0: the remaining width
@@ -73,9 +72,7 @@ class Sheets {
 
 /// The rows of the cut list as text, one per line.
 std::string cut_list_text(const exports::FabricationPlan& work);
-/// Adds the cut list as a table.
 void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);
-/// The cut list as the bytes of a PDF.
 std::string cut_list_pdf(const exports::FabricationPlan& work);
 
 /// The assembly sheet as the bytes of a PDF of A4 pages: small drawings of the footprint and the

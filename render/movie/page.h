@@ -14,7 +14,6 @@
 
 namespace gridshell::render {
 
-/// One panel of a page.
 struct PagePanel {
   std::string letter;   ///< "A", at the upper left, next to the drawing; empty: none
   std::string caption;  ///< text with markup below; empty: none

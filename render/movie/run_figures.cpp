@@ -70,7 +70,6 @@ Result<PanelFigure> panels_of(const std::vector<NamedRun>& runs, const MovieStyl
   return figure;
 }
 
-/// The colour keys of draw_over_nets().
 std::vector<ColourKey> over_net_keys(const std::vector<NamedRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
   const record::Layout& layout = runs.front().run->layout;

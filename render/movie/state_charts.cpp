@@ -217,7 +217,7 @@ ClassLook look_of(StateClass kind) {
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
   plot.title = fmt::format("Barriers between states (heights found on {} edges per segment)",
-                           states.search.judged_edges);
+                           states.search.judged_edges_per_segment);
   plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
   plot.legend = LegendPosition::none;
   // energies of states are those of all tables. Passes were computed on another mesh: only their

@@ -73,11 +73,11 @@ struct TrustRow {
 };
 template <RecordOf<TrustRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "scene", row.scene, "kind", row.kind, "class", row.found, "error", row.error,
-             "estimate", row.estimate, "force_error", row.force_error, "force_estimate",
-             row.force_estimate, "energy_error", row.energy_error, "energy_estimate",
-             row.energy_estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
-             "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
+  GRIDSHELL_VISIT(visit, row.scene, row.kind);
+  visit("class", row.found);
+  GRIDSHELL_VISIT(visit, row.error, row.estimate, row.force_error, row.force_estimate,
+                  row.energy_error, row.energy_estimate, row.exit_default, row.exit_fine,
+                  row.snap_default, row.snap_fine, row.doubt);
 }
 
 /// The class of a run by default, from a finer run and one with another number of frames; stores

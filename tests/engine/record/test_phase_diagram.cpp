@@ -74,14 +74,14 @@ TEST_CASE("a diagram shows by the shortest leg where domes are alone and where m
   CHECK(name_of(regions[1]) == "0 < l_d <= 1");
   CHECK(name_of(regions[3]) == "l_d <= -1");
   CHECK(regions[0].points == 2);
-  CHECK(regions[0].dome_alone == 2);
-  CHECK(regions[0].broken == 1);
-  CHECK(regions[0].several == 1);
+  CHECK(regions[0].first_order_alone == 2);
+  CHECK(regions[0].symmetry_broken == 1);
+  CHECK(regions[0].several_states == 1);
   CHECK(regions[0].met_first_order == 39);
   CHECK(regions[1].points == 0);
   // (0.8, 12) has l_d = -2.4; a point without a result is in no region
   CHECK(regions[2].points + regions[3].points == 2);
   CHECK(regions[3].with[std::size_t(StateClass::iii)] == 1);
-  CHECK(regions[3].more_states == 3);
+  CHECK(regions[3].states_more == 3);
   CHECK_FALSE(csv_table(regions).empty());
 }

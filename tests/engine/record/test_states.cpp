@@ -91,7 +91,7 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   CHECK(read.rows[0].lives_to == 0.0325);
   CHECK(std::isnan(read.rows[1].barrier_mJ));
   CHECK(read.search.trials == 900);
-  CHECK(read.search.paths_followed == 0);
+  CHECK(read.search.paths_followed_for_barriers == 0);
   // and before all terms of the energy were kept
   REQUIRE(write_file(folder / "states.csv",
                      "state,class,group,energy_bend_mJ,energy_stretch_mJ,inflections,count,"

@@ -40,7 +40,7 @@ void check(const study::StateLibrary& library, int trials) {
   CHECK(met > 0);
   CHECK(met <= library.search.at_rest);
   // only states that finer meshes do not have are left out
-  if (library.search.finer_lost == 0) CHECK(met == library.search.at_rest);
+  if (library.search.states_that_finer_meshes_lose == 0) CHECK(met == library.search.at_rest);
 }
 
 }  // namespace

@@ -99,8 +99,7 @@ TEST_CASE("a push has the requested depth, however many meshes follow") {
   }
 }
 
-TEST_CASE(
-    "a joint that is held bears the force that holds it, whatever the rounding of its place") {
+TEST_CASE("a joint of the step hold bears its force, whatever the rounding of its position") {
   preset::Preset p = circle(6, 69.5, 0.936 * 69.5, 5);
   p.actuation.seed = preset::Seed::down;
   p.rod.shear_GPa = 31;

@@ -44,7 +44,7 @@ TEST_CASE("an arch snaps over the pass of two half waves, each half an arch of i
   const Arch whole(edges, length, span), half(edges / 2, length / 2, span / 2);
   Linearisation system(whole.model), of_half(half.model);
   const State up = whole.rest(system, 40), down = whole.rest(system, -40);
-  const MountainPass pass = mountain_pass(system, up, down, {}, unwatched);
+  const MountainPass pass = mountain_pass(system, up, down, 2, unwatched);
   REQUIRE(pass.outcome == Outcome::reached);
   // the middle of the s-shape is neither moved nor bent
   const double expected = 2 * of_half.energy_at(half.rest(of_half, 20));
@@ -79,7 +79,7 @@ TEST_CASE("a truss of two bars snaps through the flat") {
     x << 0, a, 2 * a, 0, 0, 0, 0, z, 0;
     return start_state(model, x);
   };
-  const MountainPass pass = mountain_pass(system, at(rise), at(-rise), {.step_mm = 0.2}, unwatched);
+  const MountainPass pass = mountain_pass(system, at(rise), at(-rise), 0.2, unwatched);
   REQUIRE(pass.outcome == Outcome::reached);
   CHECK(pass.energy_mJ == Approx(EA * (l - a) * (l - a) / l).epsilon(1e-6));
   CHECK(std::abs(pass.saddle.x(2, 1)) < 1e-6);
@@ -89,5 +89,5 @@ TEST_CASE("a path from a state to itself has no pass") {
   const Arch arch(12, 126, 110);
   Linearisation system(arch.model);
   const State up = arch.rest(system, 20);
-  CHECK(mountain_pass(system, up, up, {}, unwatched).outcome == Outcome::not_converged);
+  CHECK(mountain_pass(system, up, up, 2, unwatched).outcome == Outcome::not_converged);
 }

@@ -133,7 +133,7 @@ TEST_CASE("barriers: passes lie above the states that their two sides lead to") 
   REQUIRE(library.states.size() > 1);
   StateLibrary again = library;
   const auto found = value_of(study::barriers_between(library, scene, p.jitter, 1, 0, 1, watch));
-  CHECK(library.search.paths_followed > 0);
+  CHECK(library.search.paths_followed_for_barriers > 0);
   REQUIRE(library.search.passes_found > 0);
   CHECK(int(found.size()) <= library.search.passes_found);
   for (const record::Barrier& one : found) {
