@@ -99,7 +99,7 @@ TEST_CASE("a push has the requested depth, however many meshes follow") {
   }
 }
 
-TEST_CASE("a joint of the step hold bears its force, whatever the rounding of its position") {
+TEST_CASE("a prescribed joint bears its force, whatever the rounding of its position") {
   preset::Preset p = circle(6, 69.5, 0.936 * 69.5, 5);
   p.actuation.seed = preset::Seed::down;
   p.rod.shear_GPa = 31;
