@@ -280,7 +280,7 @@ Result<std::string> StagedFolder::commit() {
   if (code != EEXIST && code != ENOTEMPTY && code != ENOTDIR) return refuse(reason(code));
   // another program may have changed or written the folder since create()
   if (const auto because = refusal(final_, command_); !because.empty()) return refuse(because);
-  if (number_of(final_) != replaces_)
+  if (number_of(final_) != replaces_ && !fs::is_empty(final_))
     return refuse("another command wrote it meanwhile; choose another folder with -o");
   if (const auto lost = longer_frames(final_, partial_);
       command_ == "movie" && maker_of(final_) == "run" && !lost.empty())

@@ -153,10 +153,10 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
 }
 
 /// Whether a rod is drawn bent: its chord is shorter than the rod by a tenth of the shortening at
-/// which paths from the flat begin, or more.
+/// which paths from the flat begin, or more. A ring is bent anyway, and in equilibrium as a circle.
 bool drawn_bent(const FootprintRod& rod) {
   constexpr double least_shortening = 1e-4;
-  if (rod.path.empty()) return false;
+  if (rod.path.empty() || rod.closed()) return false;
   const double chord = (rod.on_path(rod.span.end) - rod.on_path(rod.span.begin)).norm();
   return chord < (1 - least_shortening) * (rod.span.end - rod.span.begin);
 }

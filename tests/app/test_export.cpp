@@ -42,10 +42,10 @@ TEST_CASE("what cannot be exported is refused with what would do, and writes not
     arguments.insert(arguments.begin(), "export");
     check_refused(arguments, at, Contains(why));
   };
-  refused({"run", "--to", "a.stl"}, "a shape is written as .csv .dxf .glb");
-  refused({"run", "--to", "a"}, "a shape is written as");
+  refused({"run", "--to", "a.stl"}, "--what shape is written as .csv .dxf .glb");
+  refused({"run", "--to", "a"}, "--what shape is written as");
   refused({"run", "--to", "a.obj", "--what", "house"}, "expected one of");
-  refused({"run", "--to", "a.obj", "--what", "plate"}, "a plate is written as .csv .dxf .svg");
+  refused({"run", "--to", "a.obj", "--what", "plate"}, "--what plate is written as .csv .dxf .svg");
   refused({"run", "--to", "a.obj", "--frame", "4"}, "expected a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--frame", "-1"}, "expected a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--case", "x"}, "has no cases, so no 'x'");

@@ -111,7 +111,7 @@ TEST_CASE("a run that is ended continues from there, to the same state", "[full]
   CHECK_THAT(good(command("ended", "--resume"), folder).out, Contains("finished already"));
   CHECK(text_of(folder / "ended/summary.json") == before);
   check_refused(command("ended", "--resume --set limits.max_strain=0.002"), folder,
-                Contains("'ended' is a finished run of another command or preset"));
+                Contains("'ended' is a finished run of another preset, or of this one"));
 }
 
 TEST_CASE("a job that is queued again needs no if: --resume begins, continues or ends at once") {
@@ -129,7 +129,10 @@ TEST_CASE("a job that is queued again needs no if: --resume begins, continues or
   CHECK(again.code == 1);
   CHECK_THAT(again.err, Contains("the path ended early"));
   check_refused("run small.toml --resume --set footprint.spacing_mm=19", bench.at,
-                Contains("'out/small' is a finished run of another command or preset"));
+                Contains("'out/small' is a finished run of another preset, or of this one"));
+  bench.good("movie small.toml -o film");
+  check_refused("run small.toml --resume -o film", bench.at,
+                Contains("'film': it was made by 'gridshell movie'"));
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   CHECK(first_line(text_of(bench.at / "out/small/preset.toml")) ==
         std::string("# computed by gridshell ") + gridshell::version());

@@ -154,12 +154,13 @@ TEST_CASE(
   // nine joints off the crossings of six rods, whose ends move inwards; straightened, the rods are
   // taut in the plane
   preset::NetworkData file;
-  file.points = {{-16.9, -23.8}, {-19.4, -0.9}, {-20.7, 19.7}, {-3.0, -20.3}, {-1.3, 5.0},
-                 {0.3, 19.5},    {19.6, -21.0}, {18.4, -0.6},  {20.7, 19.6}};
-  for (const double across : {-20.0, 0.0, 20.0})
-    file.points.insert(file.points.end(), {{-35, across}, {36.5, across}});
-  for (const double across : {-20.0, 0.0, 20.0})
-    file.points.insert(file.points.end(), {{across, -33.5}, {across, 35}});
+  file.points = {{-16.9, -23.8, 0}, {-19.4, -0.9, 0}, {-20.7, 19.7, 0},
+                 {-3.0, -20.3, 0},  {-1.3, 5.0, 0},   {0.3, 19.5, 0},
+                 {19.6, -21.0, 0},  {18.4, -0.6, 0},  {20.7, 19.6, 0}};
+  for (const double y : {-20.0, 0.0, 20.0})
+    file.points.insert(file.points.end(), {{-35, y, 0}, {36.5, y, 0}});
+  for (const double x : {-20.0, 0.0, 20.0})
+    file.points.insert(file.points.end(), {{x, -33.5, 0}, {x, 35, 0}});
   for (const int k : {0, 1, 2}) {
     file.rods.push_back({9 + 2 * k, k, 3 + k, 6 + k, 10 + 2 * k});
     file.rods.push_back({15 + 2 * k, 3 * k, 3 * k + 1, 3 * k + 2, 16 + 2 * k});

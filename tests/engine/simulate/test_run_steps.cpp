@@ -251,8 +251,9 @@ TEST_CASE("steps on what is not there are errors with their number") {
     preset.step = {move(0.95), step};
     return refused_run(preset);
   };
-  CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
-                                          Catch::Contains("joint: got [40, 0], expected a joint"));
+  CHECK_THAT(refused(push(40, 0, 1)),
+             Catch::Contains("[[step]] 2") &&
+                 Catch::Contains("joint: got [40, 0], expected [i, j] of one of"));
   CHECK_THAT(refused(of(StepKind::release)),
              Catch::Contains("[[step]] 2: got no prescribed joint"));
   // `check` reports it as well
