@@ -119,8 +119,8 @@ BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& 
   for (int joint = 0; joint < mesh.joints; ++joint)
     for (int axis = 0; axis < 3; ++axis) departure.start(axis, joint) = symmetric_uniform(random);
   add_waves(scene, mesh, random, departure.start);
-  // a network that is drawn in its plane leaves it to the side of the seed, like a grid
-  if (scene.footprint.rods.front().number >= 0 && !scene.footprint.in_space())
+  // a path from a drawing in the plane leaves it to the side of the seed, like one from the flat
+  if (scene.from_drawing && !scene.footprint.in_space())
     departure.start.row(2) = scene.seed.up * departure.start.row(2).cwiseAbs();
   return departure;
 }
