@@ -62,19 +62,19 @@ std::string motion_text(const preset::Preset& preset, const Scene& scene) {
   const double farthest_mm = std::max(max_column_norm(motion.end - motion.begin),
                                       max_column_norm(motion.end_joints - motion.begin_joints));
   const preset::Actuation& to = preset.actuation;
-  if (farthest_mm > 0)
-    return fmt::format(
-        "supports        move by up to {:.3g} mm{}", farthest_mm,
-        preset.footprint.kind == preset::FootprintKind::curve && to.scale == 0 &&
-                to.boundary.kind == preset::CurveKind::circle
-            ? fmt::format(", to a circle of {:g} mm ([actuation] radius_mm)", to.radius_mm)
-            : "");
+  if (farthest_mm > 0) {
+    std::string text = fmt::format("supports        move by up to {:.3g} mm", farthest_mm);
+    if (preset.footprint.kind == preset::FootprintKind::curve && to.scale == 0 &&
+        to.boundary.kind == preset::CurveKind::circle)
+      text += fmt::format(", to a circle of {:g} mm ([actuation] radius_mm)", to.radius_mm);
+    return text;
+  }
   const bool still = !scene.rods.loaded() && preset.step.empty() && scene.load_cases.empty() &&
                      !preset.indentation.requested();
-  return fmt::format("supports        do not move{}",
-                     still ? ", and nothing loads or pushes the shell: it stays as it is drawn; "
-                             "[actuation] scale moves them"
-                           : "");
+  return std::string("supports        do not move") +
+         (still ? ", and nothing loads or pushes the shell: it stays as it is drawn; [actuation] "
+                  "scale moves them"
+                : "");
 }
 
 /// What a run does to the shell in addition to forming it, one line each.

@@ -161,11 +161,19 @@ bool drawn_bent(const FootprintRod& rod) {
   return chord < (1 - least_shortening) * (rod.span.end - rod.span.begin);
 }
 
+bool starts_from_drawing(const Scene& scene) {
+  const std::vector<FootprintRod>& rods = scene.footprint.rods;
+  if (scene.footprint.in_space()) return true;
+  for (std::size_t r = 0; r < rods.size(); ++r)
+    if (rods[r].number >= 0 && !scene.rods.materials[r].as_drawn && drawn_bent(rods[r]))
+      return true;
+  return false;
+}
+
 Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   const Footprint& footprint = scene.footprint;
   const preset::Loads& loads = preset.loads;
   TRY(rods, rods_of(preset, footprint));
-  scene.from_drawing = footprint.in_space();
   double deepest_mm = 0;
   for (const preset::Rod& rod : *rods) {
     deepest_mm = std::max(deepest_mm, rod.thinnest_mm());
@@ -177,13 +185,12 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     const RodMaterial material = material_of(rod);
     const double mass = mass_t_per_mm(rod, material);
     scene.rods.materials.push_back(material);
-    const FootprintRod& drawn = footprint.rods[scene.rods.materials.size() - 1];
-    if (drawn.number >= 0 && !material.as_drawn && drawn_bent(drawn)) scene.from_drawing = true;
     scene.mass_t_per_mm.push_back(mass);
     scene.strength_MPa.push_back(rod.fibre_strength_MPa());
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
       scene.rods.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
+  scene.from_drawing = starts_from_drawing(scene);
   // the paper's joints are for rods of 0.254 mm; thicker rods need larger ones
   scene.joint_diameter_mm = preset.joints.diameter_mm.value_or(std::max(3.0, 1.5 * deepest_mm));
   scene.joint_height_mm = preset.joints.height_mm.value_or(std::max(5.0, 1.5 * deepest_mm));

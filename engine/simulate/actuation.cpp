@@ -225,8 +225,10 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const Watch& watch, const RunContext& context) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch, context);
   if (!actuated) return actuated;
-  if (const std::string doubt = doubt_about(*actuated); !doubt.empty())
-    actuated->doubt_before = "of the actuation: " + doubt;
+  // a path that ends as its mesh is too coarse is followed again
+  if (!actuated->too_coarse())
+    if (const std::string doubt = doubt_about(*actuated); !doubt.empty())
+      actuated->doubt_before = "of the actuation: " + doubt;
   actuated->earlier = std::exchange(actuated->segments, {});
   for (PathSegment& segment : actuated->earlier) segment.free_states();
   if (actuated->too_coarse()) return actuated;

@@ -57,9 +57,10 @@ std::string turns_freely(const EquilibriumPath& path) {
 
 std::string doubt_about(const EquilibriumPath& path) {
   if (!path.mesh_disagreement.empty()) return path.mesh_disagreement;
-  for (std::string doubt : {path.doubt_before, late_on_branch(path), near_image(path)})
-    if (!doubt.empty()) return doubt;
-  return turns_freely(path);
+  if (!path.doubt_before.empty()) return path.doubt_before;
+  for (const auto& look : {late_on_branch, near_image, turns_freely})
+    if (std::string doubt = look(path); !doubt.empty()) return doubt;
+  return "";
 }
 
 }  // namespace gridshell::simulate

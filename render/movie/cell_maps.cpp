@@ -235,9 +235,8 @@ class SweepMap {
         cell.sum += value;
         ++cell.found;
       }
-      for (const SweepCell& cell : made.cells) {
-        if (cell.found > 0) values.push_back(cell.mean());
-      }
+      for (const SweepCell& cell : made.cells)
+        if (cell.is_known()) values.push_back(cell.mean());
       panels_.push_back(std::move(made));
     }
     bar_ = {label_, scale_for(values)};

@@ -21,6 +21,24 @@ TEST_CASE("check says what a push, steps and loads will do") {
              Contains("push            joint [0, 0] inward by 0.1 of the length scale"));
 }
 
+TEST_CASE("check says how far supports move, and where nothing deforms a network") {
+  const Bench bench(small_preset({}));
+  const auto said = [&](const std::string& footprint) {
+    REQUIRE(write_file(bench.at / "own.toml", "[footprint]\n" + footprint));
+    return bench.good("check own.toml").out;
+  };
+  REQUIRE(write_file(bench.at / "cross.json",
+                     R"({"rods": [[[-50, 0], [0, 0], [50, 0]], [[0, -50], [0, 0], [0, 50]]]})"));
+  const std::string cross = "kind = \"network\"\nfile = \"cross.json\"\n";
+  CHECK_THAT(said(cross), Contains("supports        do not move, and nothing loads or pushes"));
+  CHECK_THAT(said(cross + "[loads]\npoints = [[1, 0, 0, 0, -0.001]]\n"),
+             Contains("supports        do not move\n"));
+  CHECK_THAT(said(cross + "[actuation]\nscale = 0.9\n"),
+             Contains("supports        move by up to 5 mm\n"));
+  CHECK_THAT(said("kind = \"curve\"\nboundary = \"ellipse\"\nhalf_x_mm = 110\n"),
+             Contains(", to a circle of 94.5 mm ([actuation] radius_mm)\n"));
+}
+
 TEST_CASE("check says how many runs a sweep has, and refuses what it would refuse") {
   const Bench bench(small_preset({}) +
                     "[sweep]\nplot = [\"height_mm\"]\n[sweep.over]\n"

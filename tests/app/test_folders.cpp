@@ -136,6 +136,9 @@ TEST_CASE("what stdout does not take is noticed") {
   CHECK(text_of(bench.at / "err") == "cannot write to standard output: No space left on device\n");
   CHECK(shell(bench, "gridshell check small.toml > /dev/full 2> err") == 1);
   CHECK(shell(bench, "gridshell list --keys markdown > /dev/full 2> err") == 1);
+  // a reader that has read enough
+  CHECK(shell(bench, "gridshell list --keys markdown 2> err | head -1 > first") == 0);
+  CHECK(text_of(bench.at / "err") == "");
   for (const std::string command : {"list", "check small.toml", "run small.toml --print-config"}) {
     CHECK(shell(bench, "gridshell " + command + " >&- 2> err") == 1);
     CHECK(text_of(bench.at / "err") == "cannot write to standard output: it is closed\n");

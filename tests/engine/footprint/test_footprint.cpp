@@ -63,6 +63,10 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
   CHECK(message(100, 13, 20, Placement::on_axis) ==
         "13 rods per direction at d = 20 mm do not fit the boundary: the outermost crossing lies "
         "at 120 mm; take R_o >= 120.02 mm or n <= 9");
+  // no number of rods fits a boundary smaller than a cell
+  CHECK(message(0.1, 12, 20, Placement::half) ==
+        "12 rods per direction at d = 20 mm do not fit the boundary: the outermost crossing lies "
+        "at 110.4536 mm; take R_o >= 110.4737 mm");
   // the proposed values are accepted
   CHECK(circular_footprint(110.4737, 12, 20, Placement::half));
   CHECK(circular_footprint(100, 10, 20, Placement::half));

@@ -18,6 +18,25 @@ Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {
   return session.energies();
 }
 
+/// Nine hinges off the crossings of six rods, whose ends are supports: straightened, the rods are
+/// taut in the plane.
+preset::NetworkData drawn_bent() {
+  preset::NetworkData file;
+  file.points = {{-16.9, -23.8, 0}, {-19.4, -0.9, 0}, {-20.7, 19.7, 0},
+                 {-3.0, -20.3, 0},  {-1.3, 5.0, 0},   {0.3, 19.5, 0},
+                 {19.6, -21.0, 0},  {18.4, -0.6, 0},  {20.7, 19.6, 0}};
+  for (const double y : {-20.0, 0.0, 20.0})
+    file.points.insert(file.points.end(), {{-35, y, 0}, {36.5, y, 0}});
+  for (const double x : {-20.0, 0.0, 20.0})
+    file.points.insert(file.points.end(), {{x, -33.5, 0}, {x, 35, 0}});
+  for (const int k : {0, 1, 2}) {
+    file.rods.push_back({9 + 2 * k, k, 3 + k, 6 + k, 10 + 2 * k});
+    file.rods.push_back({15 + 2 * k, 3 * k, 3 * k + 1, 3 * k + 2, 16 + 2 * k});
+  }
+  for (int joint = 0; joint < 9; ++joint) file.joint_laws.push_back({double(joint), 0, -1});
+  return file;
+}
+
 }  // namespace
 
 TEST_CASE("the first buckled state is the same one on meshes of every family") {
@@ -151,21 +170,7 @@ TEST_CASE("a straight piece of a coil winds up to its natural shape, however far
 
 TEST_CASE(
     "rods drawn bent begin in equilibrium, and the side and branch are the seed's on all meshes") {
-  // nine joints off the crossings of six rods, whose ends move inwards; straightened, the rods are
-  // taut in the plane
-  preset::NetworkData file;
-  file.points = {{-16.9, -23.8, 0}, {-19.4, -0.9, 0}, {-20.7, 19.7, 0},
-                 {-3.0, -20.3, 0},  {-1.3, 5.0, 0},   {0.3, 19.5, 0},
-                 {19.6, -21.0, 0},  {18.4, -0.6, 0},  {20.7, 19.6, 0}};
-  for (const double y : {-20.0, 0.0, 20.0})
-    file.points.insert(file.points.end(), {{-35, y, 0}, {36.5, y, 0}});
-  for (const double x : {-20.0, 0.0, 20.0})
-    file.points.insert(file.points.end(), {{x, -33.5, 0}, {x, 35, 0}});
-  for (const int k : {0, 1, 2}) {
-    file.rods.push_back({9 + 2 * k, k, 3 + k, 6 + k, 10 + 2 * k});
-    file.rods.push_back({15 + 2 * k, 3 * k, 3 * k + 1, 3 * k + 2, 16 + 2 * k});
-  }
-  for (int joint = 0; joint < 9; ++joint) file.joint_laws.push_back({double(joint), 0, -1});
+  const preset::NetworkData file = drawn_bent();
   preset::Preset p = network(file, 8);
   p.rod.shear_GPa = 31;
   p.actuation.scale = 0.9;
@@ -189,4 +194,16 @@ TEST_CASE(
   CHECK(middle(coarse) > 10);
   CHECK(middle(fine) > 10);
   CHECK(middle(other_side) < -10);
+}
+
+TEST_CASE("a drawing past the strain limit whose rods stay taut ends the path at that limit") {
+  preset::Preset p = network(drawn_bent(), 8);
+  p.rod.shear_GPa = 31;
+  for (const double scale : {0.99999, 1.001}) {
+    p.actuation.scale = scale;
+    const auto taut = run(p);
+    CHECK(taut.summary.limit == record::Limit::locking);
+    CHECK_THAT(taut.summary.limit_reason, Catch::Contains("the rods reached the strain limit"));
+    CHECK(last_frame(taut).residual_N < 1e-8);
+  }
 }
